@@ -1,0 +1,78 @@
+// launch<body>(device, count, arguments...) runs body(i, arguments...) for every i in [0, count):
+// one CUDA thread each on a GPU, one turn of a loop each on a CPU. A body must not care about the
+// order: it reads what no other index writes.
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+#include <stdexcept>
+
+#include "common/device.h"
+#include "common/hd.h"
+
+#ifdef __CUDACC__
+#include "common/cuda_check.h"
+#endif
+
+namespace ballpit {
+
+/// The order in which the CPU takes the indices. A correct kernel gives the same bits in each, so
+/// a test that changes the order finds races without a GPU.
+enum class LaunchOrder { forward, reversed, shuffled };
+
+/// The order in force; tests change it. (The one switch of the engine that is not an argument: a
+/// test must be able to turn it under code that knows nothing of it.)
+inline LaunchOrder& launchOrder() {
+    static LaunchOrder order = LaunchOrder::forward;
+    return order;
+}
+
+/// Where turn k of `count` goes: a permutation of [0, count) for every order.
+inline int indexInOrder(LaunchOrder order, int k, int count) {
+    if (order == LaunchOrder::reversed) return count - 1 - k;
+    if (order == LaunchOrder::forward) return k;
+    // A stride without common divisor with count visits every index once.
+    std::int64_t stride = static_cast<std::int64_t>(0.618 * count) | 1;
+    while (std::gcd(stride, static_cast<std::int64_t>(count)) != 1) stride += 2;
+    return static_cast<int>(k * stride % count);
+}
+
+constexpr int threadsPerBlock = 256;
+
+/// Below this a parallel loop costs more than it saves.
+constexpr int serialCount = 2048;
+
+#ifdef __CUDACC__
+template <auto body, class... Args>
+__global__ void threadPerIndex(int count, Args... args) {
+    const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+    if (i < count) body(i, args...);
+}
+#endif
+
+template <auto body, class... Args>
+void loopOverIndices(int count, Args... args) {
+    const LaunchOrder order = launchOrder();
+    if (order == LaunchOrder::forward) {
+#pragma omp parallel for schedule(static) if (count >= serialCount)
+        for (int i = 0; i < count; ++i) body(i, args...);
+    } else {
+#pragma omp parallel for schedule(static) if (count >= serialCount)
+        for (int k = 0; k < count; ++k) body(indexInOrder(order, k, count), args...);
+    }
+}
+
+template <auto body, class... Args>
+void launch(Device device, int count, Args... args) {
+    if (count <= 0) return;
+    if (device == Device::cpu) return loopOverIndices<body>(count, args...);
+#ifdef __CUDACC__
+    const int blocks = (count + threadsPerBlock - 1) / threadsPerBlock;
+    threadPerIndex<body><<<blocks, threadsPerBlock, 0, cudaStream>>>(count, args...);
+    checkCuda(cudaGetLastError(), __PRETTY_FUNCTION__);
+#else
+    throw std::logic_error("launch on a GPU from a file that the CUDA compiler did not see");
+#endif
+}
+
+}  // namespace ballpit

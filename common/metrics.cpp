@@ -1,0 +1,94 @@
+// Metrics and the state hash.
+#include "common/metrics.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+#include "common/host_pairs.h"
+
+namespace ballpit {
+
+namespace {
+
+double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec3d widen(Vec3 v) { return {v.x, v.y, v.z}; }
+Vec3d minus(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+void addScaled(Vec3d& sum, double s, Vec3d v) {
+    sum.x += s * v.x, sum.y += s * v.y, sum.z += s * v.z;
+}
+Vec3d cross(Vec3d a, Vec3d b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// How far a ball sticks into the nearest wall, m; negative if it is clear of all.
+double wallPenetration(Vec3d p, double radius, Bounds walls) {
+    const Vec3d lower = widen(walls.lower), upper = widen(walls.upper);
+    return radius - std::min({p.x - lower.x, p.y - lower.y, p.z - lower.z, upper.x - p.x,
+                              upper.y - p.y, upper.z - p.z});
+}
+
+void addBody(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, Vec3d gravity,
+             double dt) {
+    const Vec3d position = widen(spheres.positions[k]), velocity = widen(spheres.velocities[k]);
+    const double mass = spheres.masses[k];
+    const double kinetic = 0.5 * mass * dot(velocity, velocity);
+    const double potential = -mass * dot(gravity, minus(position, widen(bounds.lower)));
+    m.kineticEnergy += kinetic;
+    m.potentialEnergy += potential;
+    m.shadowEnergy += kinetic + potential + 0.5 * mass * dt * dot(gravity, velocity);
+    addScaled(m.momentum, mass, velocity);
+    addScaled(m.angularMomentum, mass, cross(position, velocity));
+    if (!contains(bounds, spheres.positions[k])) ++m.lost;
+    m.largestPenetration =
+        std::max(m.largestPenetration, wallPenetration(position, spheres.radii[k], bounds));
+}
+
+}  // namespace
+
+double length(Vec3d v) { return std::sqrt(dot(v, v)); }
+
+Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt) {
+    Metrics m;
+    for (std::size_t k = 0; k < spheres.count(); ++k) {
+        if (isFinite(spheres.positions[k]) && isFinite(spheres.velocities[k]))
+            addBody(m, spheres, k, bounds, widen(gravity), dt);
+        else
+            ++m.notFinite;
+    }
+    const std::vector<Pair> pairs = findPairsOnHost(spheres);
+    double sum = 0.0;
+    for (const Pair pair : pairs) {
+        const Vec3d offset =
+            minus(widen(spheres.positions[pair.second]), widen(spheres.positions[pair.first]));
+        const double reach = double(spheres.radii[pair.first]) + spheres.radii[pair.second];
+        const double penetration = std::max(0.0, reach - length(offset));
+        sum += penetration;
+        m.largestPenetration = std::max(m.largestPenetration, penetration);
+    }
+    m.contacts = pairs.size();
+    m.meanPenetration = pairs.empty() ? 0.0 : sum / static_cast<double>(pairs.size());
+    return m;
+}
+
+std::uint64_t stateHash(const Spheres& spheres) {
+    std::uint64_t hash = 0xCBF29CE484222325u;
+    const auto mix = [&](float value) {
+        hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15u;
+        hash ^= hash >> 32;
+    };
+    for (std::size_t k = 0; k < spheres.count(); ++k) {
+        for (const Vec3 v : {spheres.positions[k], spheres.velocities[k]})
+            mix(v.x), mix(v.y), mix(v.z);
+    }
+    return hash;
+}
+
+std::string hashText(std::uint64_t hash) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+}  // namespace ballpit

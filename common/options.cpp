@@ -1,0 +1,143 @@
+// Parsing with CLI11 (the only file that includes it), and the exit codes.
+#include "common/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "common/csv.h"
+#include "common/error.h"
+
+namespace ballpit {
+
+namespace {
+
+void addOptions(CLI::App& app, Options& o, std::string& device) {
+    app.add_option("--scene", o.scene, "gravity_fall, uniform or pile")->capture_default_str();
+    app.add_option("--device", device,
+                   "cuda or cpu: the same bits on both; by default the GPU "
+                   "where there is one")
+        ->check(CLI::IsMember({"cuda", "cpu"}));
+    app.add_option("--count", o.count, "number of balls")->capture_default_str();
+    app.add_option("--seed", o.seed, "seed of the scene")->capture_default_str();
+    app.add_option("--frames", o.frames, "steps to simulate, one video frame each")
+        ->capture_default_str();
+    app.add_option("--iterations", o.iterations, "detect and resolve rounds a step")
+        ->capture_default_str();
+    app.add_option("--dt", o.dt, "time step in s (default: 1/60)");
+    app.add_option("--gravity", o.gravity, "acceleration along y in m/s^2 (default: the scene's)");
+    app.add_option("--damping", o.damping, "share of its velocity a ball loses a second");
+    app.add_option("--restitution", o.restitution, "for all balls: 0 dead stop, 1 elastic");
+    app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
+    app.add_option("--out", o.out, "video to write (.mp4, .mkv, .mov or .avi)");
+    app.add_option("--png", o.png, "picture of the last frame to write");
+    app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
+    app.add_option("--save", o.saveFile, "CSV to write the final balls to");
+    app.add_flag("--json", o.json, "print the summary as JSON");
+}
+
+/// How many letters must be changed, added or removed to turn a into b.
+std::size_t editDistance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i);
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+        }
+    }
+    return row.back();
+}
+
+/// "unknown option --frmaes: did you mean --frames?", or CLI11's own words on one line.
+std::string oneLine(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+        const auto known = [&](const std::string& word) {
+            return app.get_option_no_throw(word) != nullptr;
+        };
+        for (int k = 1; k < argc; ++k) {
+            const std::string word = std::string(argv[k]).substr(0, std::string(argv[k]).find('='));
+            if (word.rfind("-", 0) != 0 || known(word)) continue;
+            std::string nearest = "--help";
+            for (const CLI::Option* option : app.get_options())
+                if (editDistance(word, option->get_name()) < editDistance(word, nearest))
+                    nearest = option->get_name();
+            return "unknown option " + word + ": did you mean " + nearest + "?";
+        }
+    }
+    std::string text = error.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text + " (--help shows the options)";
+}
+
+void requireInRange(const Options& o) {
+    const auto require = [](bool good, const std::string& message) {
+        if (!good) throw InputError(message);
+    };
+    require(o.count >= 1, "--count " + std::to_string(o.count) + ": at least 1 ball");
+    require(o.frames >= 1, "--frames " + std::to_string(o.frames) + ": at least 1");
+    require(o.iterations >= 1, "--iterations " + std::to_string(o.iterations) + ": at least 1");
+    if (o.dt)
+        require(*o.dt > 0 && *o.dt <= 1,
+                "--dt " + std::to_string(*o.dt) + ": must be above 0, at most 1 s");
+    if (o.gravity) require(std::isfinite(*o.gravity), "--gravity: must be a finite number");
+    if (o.restitution) {
+        const std::string fault = faultOfRestitution(*o.restitution);
+        require(fault.empty(), "--restitution: " + fault);
+    }
+    if (o.device == Device::cuda) require(cudaUsable(), "--device cuda: " + whyCudaIsUnusable());
+    for (const std::string& path : {o.out, o.png, o.saveFile})
+        if (!path.empty()) requireWritable(path);
+}
+
+}  // namespace
+
+Scene sceneFor(const Options& o) {
+    // With balls of the user's own, the scene still gives the world around them.
+    Scene scene = makeScene(o.scene, o.spheresFile.empty() ? o.count : 1, o.seed);
+    if (!o.spheresFile.empty()) scene.spheres = readSpheres(o.spheresFile);
+    if (o.dt) scene.dt = *o.dt;
+    if (o.gravity) scene.gravity = {0, *o.gravity, 0};
+    if (o.damping) scene.damping = *o.damping;
+    if (o.cellSize) scene.cellSize = *o.cellSize;
+    if (o.restitution)
+        std::fill(scene.spheres.restitutions.begin(), scene.spheres.restitutions.end(),
+                  *o.restitution);
+    return scene;
+}
+
+int runMain(int argc, char** argv, const std::string& purpose, Options options,
+            const std::function<int(const Options&)>& run) {
+    CLI::App app{purpose};
+    std::string device;
+    addOptions(app, options, device);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        std::cerr << "error: " << oneLine(app, error, argc, argv) << '\n';
+        return exitBadInput;
+    }
+    options.device = device.empty()     ? defaultDevice()
+                     : device == "cuda" ? Device::cuda
+                                        : Device::cpu;
+    try {
+        requireInRange(options);
+        return run(options);
+    } catch (const InputError& error) {
+        std::cerr << "error: " << error.what() << '\n';
+        return exitBadInput;
+    } catch (const NotFiniteError& error) {
+        std::cerr << "error: " << error.what() << '\n';
+        return exitNotFinite;
+    } catch (const std::exception& error) {
+        std::cerr << "error: " << error.what() << '\n';
+        return exitFailed;
+    }
+}
+
+}  // namespace ballpit

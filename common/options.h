@@ -1,0 +1,39 @@
+// The command line that all executables share.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/device.h"
+#include "common/scene.h"
+
+namespace ballpit {
+
+/// What the user asked for; a value not given is left to the scene.
+struct Options {
+    std::string scene = "gravity_fall";
+    Device device = Device::cpu;
+    int count = 500;
+    std::uint64_t seed = 1;
+    int frames = 600;
+    int iterations = 2;
+    std::optional<float> dt, gravity, damping, restitution, cellSize;
+    std::string out;          ///< video to write; empty: none
+    std::string png;          ///< picture of the last frame; empty: none
+    std::string spheresFile;  ///< CSV to start from instead of the scene's bodies
+    std::string saveFile;     ///< CSV to write at the end
+    bool json = false;        ///< the summary as JSON
+};
+
+/// The scene that the options describe: made by name or read from the CSV, then changed by the
+/// values that were given. InputError where that cannot be.
+Scene sceneFor(const Options& options);
+
+/// Everything a main needs: parses the command line on top of `defaults`, checks the output paths,
+/// calls `run`, and turns errors into one line on stderr and an exit code (common/error.h).
+int runMain(int argc, char** argv, const std::string& purpose, Options defaults,
+            const std::function<int(const Options&)>& run);
+
+}  // namespace ballpit

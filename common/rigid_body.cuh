@@ -1,0 +1,229 @@
+// RigidBodySystem: every body's state, on one device. Users see arrays numbered by body; inside,
+// the bodies lie in cell order and packed (bodies.cuh), in three copies: the committed state that a
+// step begins with, and two to work in. A step that fails half-way therefore loses nothing.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/algorithms.h"
+#include "common/bodies.cuh"
+#include "common/error.h"
+#include "common/launch.cuh"
+#include "common/spheres.h"
+
+namespace ballpit {
+
+// Kernels between the user's numbering and the slots. Slot i holds body ids[i].
+
+HD inline void numberBody(int i, View<std::uint32_t> ids) {
+    ids[i] = static_cast<std::uint32_t>(i);
+}
+HD inline void storeVector(int i, View<const std::uint32_t> ids, View<const Vec3> byBody,
+                           View<Vec4> slots) {
+    slots[i] = withW(byBody[ids[i]], slots[i].w);
+}
+HD inline void loadVector(int i, View<const std::uint32_t> ids, View<const Vec4> slots,
+                          View<Vec3> byBody) {
+    byBody[ids[i]] = xyz(slots[i]);
+}
+HD inline void storeW(int i, View<const std::uint32_t> ids, View<const float> byBody,
+                      View<Vec4> slots) {
+    slots[i].w = byBody[ids[i]];
+}
+HD inline void loadW(int i, View<const std::uint32_t> ids, View<const Vec4> slots,
+                     View<float> byBody) {
+    byBody[ids[i]] = slots[i].w;
+}
+HD inline void storeScalar(int i, View<const std::uint32_t> ids, View<const float> byBody,
+                           View<float> slots) {
+    slots[i] = byBody[ids[i]];
+}
+HD inline void loadScalar(int i, View<const std::uint32_t> ids, View<const float> slots,
+                          View<float> byBody) {
+    byBody[ids[i]] = slots[i];
+}
+
+class RigidBodySystem;
+
+/// One property of all bodies, as an array numbered by body: bodies.radii.upload(values).
+template <class T>
+class BodyField {
+public:
+    using Fault = std::string (*)(T);
+    BodyField(RigidBodySystem& bodies, const char* name, Fault fault)
+        : bodies_(bodies), name_(name), fault_(fault) {}
+    BodyField(const BodyField&) = delete;
+
+    /// Sets the property of all bodies. InputError if the count is wrong or a value unusable,
+    /// naming the first such body; nothing is changed then.
+    void upload(std::span<const T> values);
+    void upload(const std::vector<T>& values) { upload(std::span<const T>(values)); }
+    std::vector<T> download();
+
+private:
+    RigidBodySystem& bodies_;
+    const char* name_;
+    Fault fault_;
+};
+
+class RigidBodySystem {
+public:
+    /// `count` bodies at the origin, at rest: radius 0, mass 1 kg, restitution 0, grey.
+    RigidBodySystem(Device device, std::size_t count)
+        : positions(*this, "positions", faultOfPosition),
+          velocities(*this, "velocities", faultOfVelocity),
+          radii(*this, "radii", faultOfRadius),
+          masses(*this, "masses", faultOfMass),
+          restitutions(*this, "restitutions", faultOfRestitution),
+          colors(count, Vec3{0.7f, 0.7f, 0.7f}),
+          device_(device),
+          count_(count) {
+        for (int copy = 0; copy < copyCount; ++copy) {
+            moving_.push_back({{device, count, "positions"}, {device, count, "velocities"}});
+            fixed_.push_back({{device, count, "restitutions"}, {device, count, "ids"}});
+        }
+        reset();
+    }
+    RigidBodySystem(const RigidBodySystem&) = delete;
+
+    BodyField<Vec3> positions, velocities;
+    BodyField<float> radii, masses, restitutions;
+    std::vector<Vec3> colors;  ///< for pictures only, so they stay on the host
+
+    std::size_t count() const { return count_; }
+    Device device() const { return device_; }
+
+    /// The largest radius, m.
+    float largestRadius() const { return largestRadius_; }
+
+    /// Sets everything at once. InputError as for the fields.
+    void upload(const Spheres& spheres) {
+        positions.upload(spheres.positions);
+        velocities.upload(spheres.velocities);
+        radii.upload(spheres.radii);
+        masses.upload(spheres.masses);
+        restitutions.upload(spheres.restitutions);
+        colors = spheres.colors;
+    }
+    Spheres download() {
+        return {positions.download(), velocities.download(),   radii.download(),
+                masses.download(),    restitutions.download(), colors};
+    }
+
+    /// The body in each slot of the committed state.
+    std::vector<std::uint32_t> idsInMemoryOrder() { return fixed_[state_.fixed].ids.download(); }
+
+    // For the engine: which of the three copies is which. Positions and velocities change in every
+    // stage, restitutions and ids only when the bodies are reordered, so the two rotate apart.
+
+    struct Copies {
+        std::size_t moving = 0, fixed = 0;
+        bool operator==(const Copies&) const = default;
+    };
+    static constexpr int copyCount = 3;
+
+    Copies state() const { return state_; }
+    void commit(Copies copies) { state_ = copies; }
+    BodiesView view(Copies copies) {
+        MovingArrays& moving = moving_[copies.moving];
+        FixedArrays& fixed = fixed_[copies.fixed];
+        return {moving.positions.view(), moving.velocities.view(), fixed.restitutions.view(),
+                fixed.ids.view()};
+    }
+
+    std::size_t bytes() const {
+        return copyCount * (moving_[0].positions.bytes() + moving_[0].velocities.bytes() +
+                            fixed_[0].restitutions.bytes() + fixed_[0].ids.bytes());
+    }
+    static std::size_t predictedBytes(std::size_t count) {
+        return copyCount * count * (2 * sizeof(Vec4) + sizeof(float) + sizeof(std::uint32_t));
+    }
+
+private:
+    template <class T>
+    friend class BodyField;
+
+    struct MovingArrays {
+        DeviceBuffer<Vec4> positions, velocities;
+    };
+    struct FixedArrays {
+        DeviceBuffer<float> restitutions;
+        DeviceBuffer<std::uint32_t> ids;
+    };
+
+    void reset() {
+        for (MovingArrays& copy : moving_) copy.positions.fill(0), copy.velocities.fill(0);
+        for (FixedArrays& copy : fixed_) copy.restitutions.fill(0);
+        launch<numberBody>(device_, static_cast<int>(count_), fixed_[0].ids.view());
+        masses.upload(std::vector<float>(count_, 1.0f));
+    }
+
+    // The kernels that move each property, found by the field's address.
+    void store(const BodyField<Vec3>& field, View<const Vec3> byBody) {
+        const BodiesView state = view(state_);
+        const View<Vec4> slots = &field == &positions ? state.positions : state.velocities;
+        launch<storeVector>(device_, static_cast<int>(count_), View<const std::uint32_t>(state.ids),
+                            byBody, slots);
+    }
+    void load(const BodyField<Vec3>& field, View<Vec3> byBody) {
+        const BodiesView state = view(state_);
+        const View<Vec4> slots = &field == &positions ? state.positions : state.velocities;
+        launch<loadVector>(device_, static_cast<int>(count_), View<const std::uint32_t>(state.ids),
+                           View<const Vec4>(slots), byBody);
+    }
+    void store(const BodyField<float>& field, View<const float> byBody) {
+        const BodiesView state = view(state_);
+        const View<const std::uint32_t> ids = state.ids;
+        const int count = static_cast<int>(count_);
+        if (&field == &restitutions)
+            return launch<storeScalar>(device_, count, ids, byBody, state.restitutions);
+        launch<storeW>(device_, count, ids, byBody,
+                       &field == &radii ? state.positions : state.velocities);
+        if (&field == &radii) largestRadius_ = reduceMaximum(device_, count, byBody.data, scratch_);
+    }
+    void load(const BodyField<float>& field, View<float> byBody) {
+        const BodiesView state = view(state_);
+        const View<const std::uint32_t> ids = state.ids;
+        const int count = static_cast<int>(count_);
+        if (&field == &restitutions)
+            return launch<loadScalar>(device_, count, ids, View<const float>(state.restitutions),
+                                      byBody);
+        launch<loadW>(device_, count, ids,
+                      View<const Vec4>(&field == &radii ? state.positions : state.velocities),
+                      byBody);
+    }
+
+    Device device_;
+    std::size_t count_;
+    std::vector<MovingArrays> moving_;
+    std::vector<FixedArrays> fixed_;
+    Copies state_;
+    float largestRadius_ = 0.0f;
+    Scratch scratch_{device_, 0, "scratch"};
+};
+
+template <class T>
+void BodyField<T>::upload(std::span<const T> values) {
+    if (values.size() != bodies_.count())
+        throw InputError(std::string(name_) + ": " + std::to_string(values.size()) +
+                         " values for " + std::to_string(bodies_.count()) + " bodies");
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const std::string fault = fault_(values[k]);
+        if (!fault.empty()) throw InputError("body " + std::to_string(k) + ": " + fault);
+    }
+    DeviceBuffer<T> byBody(bodies_.device(), values.size(), name_);
+    byBody.upload(values);
+    bodies_.store(*this, byBody.view());
+    synchronize(bodies_.device());
+}
+
+template <class T>
+std::vector<T> BodyField<T>::download() {
+    DeviceBuffer<T> byBody(bodies_.device(), bodies_.count(), name_);
+    bodies_.load(*this, byBody.view());
+    return byBody.download();
+}
+
+}  // namespace ballpit

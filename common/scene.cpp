@@ -1,0 +1,170 @@
+// How each scene is made.
+#include "common/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "common/error.h"
+#include "common/random.h"
+
+namespace ballpit {
+
+namespace {
+
+constexpr float standardGravity = 9.81f;
+constexpr float sphereVolumeFactor = 4.18879020f;  // 4 pi / 3
+
+/// Balls placed so far, by cell: finds whether a new one has room.
+class PlacedBalls {
+public:
+    explicit PlacedBalls(float cellSize) : cellSize_(cellSize) {}
+
+    bool hasRoom(Vec3 position, float radius) const {
+        const auto [x, y, z] = cellOf(position);
+        for (int dz = -1; dz <= 1; ++dz)
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx)
+                    if (!cellHasRoom(key(x + dx, y + dy, z + dz), position, radius)) return false;
+        return true;
+    }
+
+    void add(Vec3 position, float radius) {
+        const auto [x, y, z] = cellOf(position);
+        cells_[key(x, y, z)].push_back({position.x, position.y, position.z, radius});
+    }
+
+private:
+    struct Cell {
+        int x, y, z;
+    };
+    Cell cellOf(Vec3 p) const {
+        const auto along = [&](float c) { return static_cast<int>(std::floor(c / cellSize_)); };
+        return {along(p.x), along(p.y), along(p.z)};
+    }
+    static std::uint64_t key(int x, int y, int z) {
+        const auto bits = [](int c) { return static_cast<std::uint64_t>(c + (1 << 20)); };
+        return bits(x) | bits(y) << 21 | bits(z) << 42;
+    }
+    bool cellHasRoom(std::uint64_t cell, Vec3 position, float radius) const {
+        const auto found = cells_.find(cell);
+        if (found == cells_.end()) return true;
+        return std::none_of(found->second.begin(), found->second.end(), [&](Vec4 other) {
+            const float reach = radius + other.w;
+            return lengthSquared(position - xyz(other)) <= reach * reach;
+        });
+    }
+
+    float cellSize_;
+    std::unordered_map<std::uint64_t, std::vector<Vec4>> cells_;
+};
+
+/// Bright, well-told-apart colours in turn.
+Vec3 paletteColor(std::size_t k) {
+    static constexpr Vec3 palette[] = {
+        {0.90f, 0.30f, 0.24f}, {0.95f, 0.61f, 0.07f}, {0.95f, 0.80f, 0.25f}, {0.25f, 0.72f, 0.45f},
+        {0.15f, 0.68f, 0.70f}, {0.24f, 0.52f, 0.86f}, {0.58f, 0.40f, 0.80f}, {0.88f, 0.45f, 0.65f}};
+    return palette[k % std::size(palette)];
+}
+
+/// Equal balls in a cube of `side` m: the world of the measuring scenes.
+Scene emptyCube(const std::string& name, float side, float cellSize) {
+    return {name, {}, {{0, 0, 0}, {side, side, side}}, cellSize, {0, 0, 0}, 0.0f, 1.0f / 60.0f};
+}
+
+}  // namespace
+
+std::vector<Vec3> nonOverlappingPositions(const std::vector<float>& radii, Bounds box,
+                                          std::uint64_t seed) {
+    constexpr int tries = 10000;
+    Random random(seed);
+    const float largest = radii.empty() ? 0.0f : *std::max_element(radii.begin(), radii.end());
+    PlacedBalls placed(std::max(2.0f * largest, 1e-3f));
+    std::vector<Vec3> positions;
+    for (const float radius : radii) {
+        const Vec3 margin{radius, radius, radius};
+        const Bounds room{box.lower + margin, box.upper - margin};
+        int attempt = 0;
+        Vec3 position = random.uniformIn(room);
+        while (!placed.hasRoom(position, radius) && ++attempt < tries)
+            position = random.uniformIn(room);
+        if (attempt == tries)
+            throw InputError("count " + std::to_string(radii.size()) +
+                             ": these balls do not fit without overlap; about " +
+                             std::to_string(positions.size()) + " do");
+        placed.add(position, radius);
+        positions.push_back(position);
+    }
+    return positions;
+}
+
+Scene makeGravityFall(int count, std::uint64_t seed) {
+    constexpr float roomyCount = 8000.0f, density = 1.0f;
+    const float scale = static_cast<float>(std::cbrt(std::min(1.0, double(roomyCount) / count)));
+    Scene scene{"gravity_fall",
+                {},
+                {{-20, 0, -20}, {20, 40, 20}},
+                2.0f * scale,
+                {0, -standardGravity, 0},
+                0.01f,
+                1.0f / 60.0f};
+    Random random(seed);
+    std::vector<float> radii;
+    for (int k = 0; k < count; ++k) radii.push_back(scale * random.uniform(0.3f, 0.9f));
+    const std::vector<Vec3> positions =
+        nonOverlappingPositions(radii, {{-18, 6, -18}, {18, 39, 18}}, random.next());
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+        const float radius = radii[k];
+        const float mass = density * sphereVolumeFactor * radius * radius * radius;
+        const Vec3 velocity = random.uniformIn({{-4, -2, -4}, {4, 2, 4}});
+        scene.spheres.add(positions[k], velocity, radius, mass, random.uniform(0.3f, 0.9f),
+                          paletteColor(k));
+    }
+    return scene;
+}
+
+Scene makeUniform(int count, std::uint64_t seed) {
+    // One contact a ball: number density n with n 4/3 pi (2r)^3 = 1.
+    const float radius = 0.5f;
+    const float side =
+        static_cast<float>(std::cbrt(double(count) * sphereVolumeFactor)) + 2.0f * radius;
+    Scene scene = emptyCube("uniform", side, 2.2f * radius);
+    Random random(seed);
+    const Bounds room{{radius, radius, radius}, {side - radius, side - radius, side - radius}};
+    for (int k = 0; k < count; ++k) {
+        const Vec3 position = random.uniformIn(room);
+        scene.spheres.add(position, random.uniformIn({{-1, -1, -1}, {1, 1, 1}}), radius, 1.0f, 1.0f,
+                          paletteColor(static_cast<std::size_t>(k)));
+    }
+    return scene;
+}
+
+Scene makePile(int count, std::uint64_t seed) {
+    const float radius = 0.5f, spacing = 0.98f, jitter = 0.01f;
+    const int side = static_cast<int>(std::ceil(std::cbrt(double(count)) - 1e-9));
+    const float length = spacing * static_cast<float>(side - 1) + 2.0f * (radius + jitter);
+    Scene scene = emptyCube("pile", length, 2.2f * radius);
+    scene.gravity = {0, -standardGravity, 0};
+    Random random(seed);
+    const float first = radius + jitter;
+    for (int k = 0; k < count; ++k) {
+        const Vec3 place{static_cast<float>(k % side), static_cast<float>(k / side / side),
+                         static_cast<float>(k / side % side)};
+        const Vec3 shift =
+            random.uniformIn({{-jitter, -jitter, -jitter}, {jitter, jitter, jitter}});
+        scene.spheres.add(Vec3{first, first, first} + spacing * place + shift, {}, radius, 1.0f,
+                          0.3f, paletteColor(static_cast<std::size_t>(k)));
+    }
+    return scene;
+}
+
+Scene makeScene(const std::string& name, int count, std::uint64_t seed) {
+    if (count < 1) throw InputError("count " + std::to_string(count) + ": at least 1 ball");
+    if (name == "gravity_fall") return makeGravityFall(count, seed);
+    if (name == "uniform") return makeUniform(count, seed);
+    if (name == "pile") return makePile(count, seed);
+    throw InputError("scene '" + name + "': known scenes are gravity_fall, uniform, pile");
+}
+
+}  // namespace ballpit

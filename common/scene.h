@@ -1,0 +1,42 @@
+// Scenes: bodies and the world they start in. The same seed gives the same bits everywhere.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/spheres.h"
+
+namespace ballpit {
+
+struct Scene {
+    std::string name;
+    Spheres spheres;
+    Bounds bounds;   ///< m
+    float cellSize;  ///< m
+    Vec3 gravity;    ///< m/s^2
+    float damping;   ///< 1/s
+    float dt;        ///< s
+};
+
+/// The original design's example: balls of mixed radii (0.3 to 0.9 m), masses (equal density) and
+/// restitutions (0.3 to 0.9), none overlapping, above the floor of a 40 m world. Beyond 8000 balls
+/// all lengths of the balls shrink so that they fit.
+Scene makeGravityFall(int count, std::uint64_t seed);
+
+/// Equal balls (r 0.5 m, 1 kg, elastic) at random places, overlaps and all: half a touching pair a
+/// ball, one contact a ball. No gravity.
+Scene makeUniform(int count, std::uint64_t seed);
+
+/// Equal balls (r 0.5 m, 1 kg, e 0.3) stacked in a cube with hardly any room: about three touching
+/// pairs a ball from the first step on.
+Scene makePile(int count, std::uint64_t seed);
+
+/// By name: gravity_fall, uniform, pile. InputError for another name or a count below 1.
+Scene makeScene(const std::string& name, int count, std::uint64_t seed);
+
+/// Random places for balls of these radii inside `box` so that none overlap or touch a wall.
+/// InputError if they do not fit (random placing fills about a quarter of a box).
+std::vector<Vec3> nonOverlappingPositions(const std::vector<float>& radii, Bounds box,
+                                          std::uint64_t seed);
+
+}  // namespace ballpit

@@ -1,0 +1,44 @@
+// How long each stage of a step took. CUDA events on a GPU, the host's clock on a CPU; on a GPU
+// every stage is also an NVTX range, so that profilers show it by name.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/device.h"
+
+namespace ballpit {
+
+struct StageTime {
+    std::string stage;
+    double milliseconds;
+};
+
+/// timer.start("sort"); ...work...; timer.start("reorder"); ...work...; timer.stop().
+/// Stages of the same name are added up.
+class StageTimer {
+public:
+    explicit StageTimer(Device device);
+    ~StageTimer();
+    StageTimer(const StageTimer&) = delete;
+
+    /// A timer that is off costs nothing. Off at first.
+    void enable(bool on) { enabled_ = on; }
+    bool enabled() const { return enabled_; }
+
+    /// Ends the stage before, if any, and starts this one.
+    void start(const char* stage);
+    void stop();
+
+    /// The stages since the last read, in order. Waits for the device.
+    std::vector<StageTime> read();
+
+private:
+    struct Clock;
+    std::unique_ptr<Clock> clock_;
+    std::vector<std::string> stages_;
+    bool enabled_ = false;
+};
+
+}  // namespace ballpit

@@ -1,0 +1,95 @@
+// Chapter 06: all touching pairs from the 27 cells around each body; none missed, none twice.
+//
+// Each pair is found by the body that comes first in memory. Bodies lie in cell order, so the
+// partners after body i are in the rest of its own row and in the four rows with higher hashes:
+// 14 of the 27 cells. Count, scan, fill: every body counts its partners, a scan turns the counts
+// into places, and every body writes its own pairs there. The list is the same on every run.
+#pragma once
+
+#include "01_naive_collision/naive_collision.cuh"
+#include "02_grid_hash/grid_hash.cuh"
+#include "05_cell_bounds/cell_bounds.cuh"
+#include "common/algorithms.h"
+#include "common/bodies.cuh"
+#include "common/launch.cuh"
+#include "common/pair_list.cuh"
+
+namespace ballpit {
+
+/// Calls visit(j) for every slot j of `range` whose body touches `mine`.
+template <class Visit>
+HD void visitTouching(SlotRange range, Vec4 mine, View<const Vec4> positions, Visit& visit) {
+    for (std::uint32_t j = range.begin; j < range.end; ++j) {
+        if (spheresTouch(mine, positions[j])) visit(j);
+    }
+}
+
+/// Calls visit(j) for every slot j after i whose body touches body i, in rising order. The cell is
+/// the one body i was sorted into, taken from its hash, so that bodies may have moved since: all
+/// are found as long as none has moved farther than half a cell less its radius.
+template <class Visit>
+HD void visitPartnersAfter(int i, GridView grid, View<const std::uint32_t> sortedHashes,
+                           View<const Vec4> positions, Visit visit) {
+    const std::uint32_t hash = sortedHashes[i];
+    const Int3 cell = cellFromHash(grid.resolution, hash);
+    const Vec4 mine = positions[i];
+    const std::uint32_t left = cell.x > 0 ? 1 : 0;
+    const std::uint32_t right = cell.x + 1 < grid.resolution.x ? 1 : 0;
+
+    // The rest of the own row: from the next slot on.
+    const std::uint32_t next = static_cast<std::uint32_t>(i) + 1u;
+    visitTouching({next, grid.cellEnds[hash + right]}, mine, positions, visit);
+
+    // The next row of this layer (dz = 0, dy = 1), then the three rows of the next layer.
+    for (int dz = 0; dz <= 1; ++dz) {
+        for (int dy = dz == 0 ? 1 : -1; dy <= 1; ++dy) {
+            const Int3 there{cell.x, cell.y + dy, cell.z + dz};
+            if (there.y < 0 || there.y >= grid.resolution.y || there.z >= grid.resolution.z)
+                continue;
+            const std::uint32_t middle = cellHash(grid.resolution, there);
+            visitTouching(slotsOfRow(grid, middle - left, middle + right), mine, positions, visit);
+        }
+    }
+}
+
+/// Counts the partners of body i that come after it, and remembers the first few of them.
+HD inline void broadPhaseCollision(int i, GridView grid, View<const std::uint32_t> sortedHashes,
+                                   View<const Vec4> positions, View<std::uint32_t> counts,
+                                   View<std::uint32_t> remembered) {
+    std::uint32_t count = 0;
+    const std::size_t first = static_cast<std::size_t>(i) * rememberedPartners;
+    visitPartnersAfter(i, grid, sortedHashes, positions, [&](std::uint32_t j) {
+        if (count < rememberedPartners) remembered[first + count] = j;
+        ++count;
+    });
+    counts[i] = count;
+}
+
+/// Writes the pairs of body i to its places in the list: from memory, or by a second search where
+/// there were too many to remember. Places past the capacity are counted but not written.
+HD inline void writePairs(int i, GridView grid, View<const std::uint32_t> sortedHashes,
+                          View<const Vec4> positions, View<const std::uint32_t> counts,
+                          View<const std::uint32_t> remembered, PairsView list) {
+    std::uint32_t place = list.starts[i];
+    const auto write = [&](std::uint32_t j) {
+        if (place < list.pairs.count) list.pairs[place] = {static_cast<std::uint32_t>(i), j};
+        ++place;
+    };
+    if (counts[i] > rememberedPartners)
+        return visitPartnersAfter(i, grid, sortedHashes, positions, write);
+    const std::size_t first = static_cast<std::size_t>(i) * rememberedPartners;
+    for (std::uint32_t k = 0; k < counts[i]; ++k) write(remembered[first + k]);
+}
+
+/// Fills `list` with all touching pairs of `count` bodies in the built grid.
+inline void findPairsGrid(Device device, int count, GridView grid,
+                          View<const std::uint32_t> sortedHashes, View<const Vec4> positions,
+                          PairList& list, Scratch& scratch) {
+    const View<std::uint32_t> counts = list.counts.view(), remembered = list.remembered.view();
+    launch<broadPhaseCollision>(device, count, grid, sortedHashes, positions, counts, remembered);
+    exclusiveScan(device, count, list.counts.data(), list.starts.data(), scratch);
+    launch<writePairs>(device, count, grid, sortedHashes, positions, counts, remembered,
+                       list.view());
+}
+
+}  // namespace ballpit

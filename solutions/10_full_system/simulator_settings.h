@@ -1,0 +1,67 @@
+// What a simulator is asked for, and whether that makes sense.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "common/device.h"
+#include "common/error.h"
+#include "common/vec3.cuh"
+
+namespace ballpit {
+
+enum class ResponseMethod {
+    massSplit,  ///< gathered impulses, the default
+    racy        ///< the original's in-place kernel: an exhibit, not repeatable
+};
+
+struct SimulatorSettings {
+    int objects = 500;
+    Bounds bounds{{-20, 0, -20}, {20, 40, 20}};  ///< m
+    float cellSize = 2.0f;                       ///< m, at least the largest diameter
+    Device device = defaultDevice();
+    float dt = 1.0f / 60.0f;     ///< s
+    Vec3 gravity{0, -9.81f, 0};  ///< m/s^2
+    float damping = 0.01f;       ///< 1/s
+    int iterations = 2;          ///< detect and resolve rounds a step
+    ResponseMethod response = ResponseMethod::massSplit;
+    std::size_t pairCapacity = 0;  ///< pairs to make room for at first; 0: four a body
+    bool growPairs = true;         ///< on overflow: grow and redo, or fail
+    bool timeStages = false;       ///< fills StepStats::stages, at the price of the CUDA graph
+
+    std::size_t firstPairCapacity() const {
+        return pairCapacity ? pairCapacity : 4 * static_cast<std::size_t>(objects);
+    }
+};
+
+/// InputError naming the first setting that makes no sense.
+inline void requireSensible(const SimulatorSettings& s) {
+    const auto require = [](bool good, const std::string& message) {
+        if (!good) throw InputError(message);
+    };
+    const Vec3 size = extent(s.bounds);
+    require(s.objects > 0, "count " + std::to_string(s.objects) + ": at least 1 ball");
+    require(size.x > 0 && size.y > 0 && size.z > 0, "world: upper must lie above lower");
+    require(s.cellSize > 0, "cell size " + std::to_string(s.cellSize) + ": must be above 0 m");
+    require(s.dt > 0 && s.dt <= 1, "dt " + std::to_string(s.dt) + ": must be above 0, at most 1 s");
+    require(isFinite(s.gravity), "gravity: must be a finite number of m/s^2");
+    require(s.damping >= 0 && s.damping * s.dt <= 1,
+            "damping " + std::to_string(s.damping) + ": must lie between 0 and 1/dt");
+    require(s.iterations > 0 && s.iterations <= 1000,
+            "iterations " + std::to_string(s.iterations) + ": 1 to 1000 rounds a step");
+    require(s.device == Device::cpu || cudaUsable(), whyCudaIsUnusable());
+}
+
+/// InputError unless the device has `needed` bytes free.
+inline void requireMemory(std::size_t needed, const SimulatorSettings& s) {
+    const std::size_t available = freeMemory(s.device);
+    if (needed <= available) return;
+    const auto gigabytes = [](std::size_t bytes) {
+        return std::to_string(static_cast<double>(bytes) / (1024.0 * 1024.0 * 1024.0)) + " GiB";
+    };
+    throw InputError("count " + std::to_string(s.objects) + " needs " + gigabytes(needed) +
+                     ", but " + name(s.device) + " has " + gigabytes(available) +
+                     " free: use fewer balls");
+}
+
+}  // namespace ballpit

@@ -1,0 +1,61 @@
+# What every target shares: warnings, exact arithmetic, include paths, sanitizers.
+
+add_library(warnings INTERFACE)
+set(cxx_warnings -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Werror)
+target_compile_options(warnings INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:${cxx_warnings}>
+    # -Wpedantic complains about the code that nvcc hands to the host compiler.
+    "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:-Xcompiler=-Wall,-Wextra,-Werror -Werror=all-warnings>")
+
+# Exactness: the same bits on CPU and GPU. No fused multiply-add anywhere, never fast-math.
+add_library(exact_math INTERFACE)
+target_compile_options(exact_math INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>
+    "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:--fmad=false -Xcompiler=-ffp-contract=off>")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    # floorf and friends as one instruction: any processor since 2009. No FMA in this set.
+    target_compile_options(exact_math INTERFACE
+        $<$<COMPILE_LANGUAGE:CXX>:-msse4.2>
+        "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:-Xcompiler=-msse4.2>")
+endif()
+
+add_library(sanitizers INTERFACE)
+if(BALLPIT_SANITIZE)
+    target_compile_options(sanitizers INTERFACE -fsanitize=address,undefined
+                                                -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(sanitizers INTERFACE -fsanitize=address,undefined)
+endif()
+
+find_package(OpenMP COMPONENTS CXX)
+if(NOT OpenMP_CXX_FOUND)
+    message(STATUS "OpenMP: not found; the CPU runs on one thread")
+endif()
+
+# Gives a target the house rules. Where pieces are looked up ("05_cell_bounds/cell_bounds.cuh"):
+# in solutions/; a student's build puts chapters/ before it.
+function(ballpit_target target)
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}
+                                                ${PROJECT_SOURCE_DIR}/solutions)
+    target_link_libraries(${target} PUBLIC warnings exact_math sanitizers)
+    target_compile_definitions(${target} PUBLIC $<$<CONFIG:Debug>:BALLPIT_CHECKED>)
+    if(OpenMP_CXX_FOUND)
+        target_compile_options(${target} PUBLIC
+            $<$<COMPILE_LANGUAGE:CXX>:${OpenMP_CXX_FLAGS}>
+            "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:-Xcompiler=-fopenmp>")
+        target_link_libraries(${target} PUBLIC ${OpenMP_CXX_LIBRARIES})
+    else()
+        target_compile_options(${target} PUBLIC $<$<COMPILE_LANGUAGE:CXX>:-Wno-unknown-pragmas>)
+    endif()
+    if(BALLPIT_WITH_CUDA)
+        target_compile_definitions(${target} PUBLIC BALLPIT_CUDA)
+        target_compile_options(${target} PUBLIC
+            "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:--extended-lambda --expt-relaxed-constexpr>")
+        target_link_libraries(${target} PUBLIC CUDA::cudart_static)
+    else()
+        get_target_property(sources ${target} SOURCES)
+        list(FILTER sources INCLUDE REGEX "\\.cu$")
+        if(sources)
+            set_source_files_properties(${sources} PROPERTIES LANGUAGE CXX)
+        endif()
+    endif()
+endfunction()
