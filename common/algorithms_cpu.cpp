@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/launch.cuh"
+#include "common/device.h"
 
 #ifdef _OPENMP
 #include <omp.h>

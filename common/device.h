@@ -8,6 +8,10 @@ namespace ballpit {
 
 enum class Device { cpu, cuda };
 
+/// On a CPU, loops over fewer elements than this run on one thread: waking the others would cost
+/// more than they save.
+constexpr int serialCount = 2048;
+
 /// True if this build contains CUDA code and a GPU answers.
 bool cudaUsable();
 

@@ -12,6 +12,8 @@
 
 #ifdef __CUDACC__
 #include "common/cuda_check.h"
+#elif defined(BALLPIT_CUDA)
+#error "this file launches kernels: give it the ending .cu, so that CUDA's compiler sees it"
 #endif
 
 namespace ballpit {
@@ -38,9 +40,6 @@ inline int indexInOrder(LaunchOrder order, int k, int count) {
 }
 
 constexpr int threadsPerBlock = 256;
-
-/// Below this a parallel loop costs more than it saves.
-constexpr int serialCount = 2048;
 
 #ifdef __CUDACC__
 template <auto body, class... Args>
@@ -71,7 +70,7 @@ void launch(Device device, int count, Args... args) {
     threadPerIndex<body><<<blocks, threadsPerBlock, 0, cudaStream>>>(count, args...);
     checkCuda(cudaGetLastError(), __PRETTY_FUNCTION__);
 #else
-    throw std::logic_error("launch on a GPU from a file that the CUDA compiler did not see");
+    throw std::logic_error("a launch on a GPU in a build without CUDA");
 #endif
 }
 

@@ -14,7 +14,7 @@ namespace ballpit {
 namespace {
 
 void addOptions(CLI::App& app, Options& o, std::string& device) {
-    app.add_option("--scene", o.scene, "gravity_fall, uniform or pile")->capture_default_str();
+    app.add_option("--scene", o.scene, "gravity_fall, uniform, gas or pile")->capture_default_str();
     app.add_option("--device", device,
                    "cuda or cpu: the same bits on both; by default the GPU "
                    "where there is one")

@@ -68,6 +68,9 @@ Vec3 paletteColor(std::size_t k) {
     return palette[k % std::size(palette)];
 }
 
+/// Balls along each edge of the smallest cube that holds `count`.
+int cubeSide(int count) { return static_cast<int>(std::ceil(std::cbrt(double(count)) - 1e-9)); }
+
 /// Equal balls in a cube of `side` m: the world of the measuring scenes.
 Scene emptyCube(const std::string& name, float side, float cellSize) {
     return {name, {}, {{0, 0, 0}, {side, side, side}}, cellSize, {0, 0, 0}, 0.0f, 1.0f / 60.0f};
@@ -140,22 +143,47 @@ Scene makeUniform(int count, std::uint64_t seed) {
     return scene;
 }
 
-Scene makePile(int count, std::uint64_t seed) {
-    const float radius = 0.5f, spacing = 0.98f, jitter = 0.01f;
-    const int side = static_cast<int>(std::ceil(std::cbrt(double(count)) - 1e-9));
-    const float length = spacing * static_cast<float>(side - 1) + 2.0f * (radius + jitter);
-    Scene scene = emptyCube("pile", length, 2.2f * radius);
-    scene.gravity = {0, -standardGravity, 0};
-    Random random(seed);
+namespace {
+
+/// Adds `count` balls on a simple cubic lattice, layer by layer from the floor up, each shifted at
+/// random by up to `jitter`; the velocities at random in each direction up to `speed`.
+void addLattice(Scene& scene, int count, float spacing, float jitter, float speed,
+                float restitution, std::uint64_t seed) {
+    constexpr float radius = 0.5f, mass = 1.0f;
+    const int side = cubeSide(count);
     const float first = radius + jitter;
+    Random random(seed);
     for (int k = 0; k < count; ++k) {
         const Vec3 place{static_cast<float>(k % side), static_cast<float>(k / side / side),
                          static_cast<float>(k / side % side)};
         const Vec3 shift =
             random.uniformIn({{-jitter, -jitter, -jitter}, {jitter, jitter, jitter}});
-        scene.spheres.add(Vec3{first, first, first} + spacing * place + shift, {}, radius, 1.0f,
-                          0.3f, paletteColor(static_cast<std::size_t>(k)));
+        const Vec3 velocity = random.uniformIn({{-speed, -speed, -speed}, {speed, speed, speed}});
+        scene.spheres.add(Vec3{first, first, first} + spacing * place + shift, velocity, radius,
+                          mass, restitution, paletteColor(static_cast<std::size_t>(k)));
     }
+}
+
+float latticeLength(int count, float spacing, float jitter) {
+    return spacing * static_cast<float>(cubeSide(count) - 1) + 2.0f * (0.5f + jitter);
+}
+
+}  // namespace
+
+Scene makeGas(int count, std::uint64_t seed) {
+    // Spacing s with pi/6 / s^3 = 0.4; a speed of 5 m/s in each direction is about 3 m/s rms along
+    // each, so that a ball of 0.5 m moves a tenth of its radius in 1/60 s.
+    constexpr float spacing = 1.0938f, jitter = 0.04f, speed = 5.0f;
+    Scene scene = emptyCube("gas", latticeLength(count, spacing, jitter), 1.1f);
+    addLattice(scene, count, spacing, jitter, speed, 1.0f, seed);
+    return scene;
+}
+
+Scene makePile(int count, std::uint64_t seed) {
+    constexpr float spacing = 0.98f, jitter = 0.01f;
+    Scene scene = emptyCube("pile", latticeLength(count, spacing, jitter), 1.1f);
+    scene.gravity = {0, -standardGravity, 0};
+    addLattice(scene, count, spacing, jitter, 0.0f, 0.3f, seed);
     return scene;
 }
 
@@ -163,8 +191,9 @@ Scene makeScene(const std::string& name, int count, std::uint64_t seed) {
     if (count < 1) throw InputError("count " + std::to_string(count) + ": at least 1 ball");
     if (name == "gravity_fall") return makeGravityFall(count, seed);
     if (name == "uniform") return makeUniform(count, seed);
+    if (name == "gas") return makeGas(count, seed);
     if (name == "pile") return makePile(count, seed);
-    throw InputError("scene '" + name + "': known scenes are gravity_fall, uniform, pile");
+    throw InputError("scene '" + name + "': known scenes are gravity_fall, uniform, gas, pile");
 }
 
 }  // namespace ballpit

@@ -27,11 +27,15 @@ Scene makeGravityFall(int count, std::uint64_t seed);
 /// ball, one contact a ball. No gravity.
 Scene makeUniform(int count, std::uint64_t seed);
 
+/// Equal elastic balls (r 0.5 m, 1 kg) that fill 40 % of their cube and move a tenth of their
+/// radius a step: a dense gas, one to two contacts a ball. No gravity.
+Scene makeGas(int count, std::uint64_t seed);
+
 /// Equal balls (r 0.5 m, 1 kg, e 0.3) stacked in a cube with hardly any room: about three touching
 /// pairs a ball from the first step on.
 Scene makePile(int count, std::uint64_t seed);
 
-/// By name: gravity_fall, uniform, pile. InputError for another name or a count below 1.
+/// By name: gravity_fall, uniform, gas, pile. InputError for another name or a count below 1.
 Scene makeScene(const std::string& name, int count, std::uint64_t seed);
 
 /// Random places for balls of these radii inside `box` so that none overlap or touch a wall.

@@ -1,6 +1,8 @@
 // What the tests share: the devices present, brute force, and scenes of a few balls.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -48,6 +50,20 @@ inline std::vector<Pair> bruteForcePairs(const Spheres& spheres) {
         }
     }
     return pairs;
+}
+
+/// The floats of a list of vectors as bits, for comparisons in which -0 is not 0 and NaN is NaN.
+inline std::vector<std::uint32_t> bitsOf(const std::vector<Vec3>& values) {
+    std::vector<std::uint32_t> bits;
+    for (const Vec3 v : values)
+        for (const float value : {v.x, v.y, v.z})
+            bits.push_back(std::bit_cast<std::uint32_t>(value));
+    return bits;
+}
+inline std::vector<std::uint32_t> bitsOf(const std::vector<float>& values) {
+    std::vector<std::uint32_t> bits;
+    for (const float value : values) bits.push_back(std::bit_cast<std::uint32_t>(value));
+    return bits;
 }
 
 /// Settings for a scene on a device; the caller changes what it wants.

@@ -31,3 +31,13 @@ if(BALLPIT_WITH_GRAPHICS)
 else()
     message(STATUS "Graphics: no (physics, tests of physics and the bench are built)")
 endif()
+
+# The film is there in every build; without graphics it refuses to record.
+if(BALLPIT_WITH_GRAPHICS)
+    add_library(ballpit_film STATIC solutions/10_full_system/film.cpp)
+    target_link_libraries(ballpit_film PUBLIC ballpit_graphics)
+else()
+    add_library(ballpit_film STATIC solutions/10_full_system/film_without_graphics.cpp)
+endif()
+ballpit_target(ballpit_film)
+target_link_libraries(ballpit_film PUBLIC ballpit_common)

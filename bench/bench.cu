@@ -1,0 +1,41 @@
+// How long each stage takes, for scenes of growing size: `./ballpit bench`.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "bench/bench.cuh"
+#include "common/error.h"
+
+using namespace ballpit;
+
+int main(int argc, char** argv) {
+    CLI::App app{"Times the engine: each stage's median ms, by scene and number of balls."};
+    BenchPlan plan;
+    std::string device = name(defaultDevice());
+    app.add_option("--device", device, "cuda or cpu")
+        ->check(CLI::IsMember({"cuda", "cpu"}))
+        ->capture_default_str();
+    app.add_option("--counts", plan.counts,
+                   "numbers of balls (default: 1 k to 1 M on a CPU, "
+                   "1 k to 8 M on a GPU)");
+    app.add_option("--scenes", plan.scenes, "uniform, gas, pile")->capture_default_str();
+    app.add_option("--repeats", plan.repeats, "timed steps; the median is shown")
+        ->capture_default_str()
+        ->check(CLI::Range(3, 10000));
+    app.add_option("--csv", plan.csv, "file to write the table to as well");
+    try {
+        app.parse(argc, argv);
+        plan.device = device == "cuda" ? Device::cuda : Device::cpu;
+        runBench(plan);
+    } catch (const CLI::Success& help) {
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        std::cerr << "error: " << error.what() << " (--help shows the options)\n";
+        return exitBadInput;
+    } catch (const InputError& error) {
+        std::cerr << "error: " << error.what() << '\n';
+        return exitBadInput;
+    } catch (const std::exception& error) {
+        std::cerr << "error: " << error.what() << '\n';
+        return exitFailed;
+    }
+}

@@ -1,0 +1,22 @@
+// The film of a build without graphics: refuses politely.
+#include "10_full_system/film.h"
+
+#include "common/error.h"
+
+namespace ballpit {
+
+struct Film::Crew {};
+
+Film::Film(const Options& options, Bounds) {
+    if (!options.out.empty() || !options.png.empty())
+        throw InputError(
+            "this build has no graphics, so --out and --png cannot be used: install libegl-dev "
+            "libgl-dev libglew-dev libavcodec-dev libavformat-dev libswscale-dev and configure "
+            "again, or leave them away");
+}
+
+Film::~Film() = default;
+void Film::capture(const std::vector<Vec3>&, const std::vector<float>&, const std::vector<Vec3>&) {}
+void Film::finish() {}
+
+}  // namespace ballpit
