@@ -70,7 +70,7 @@ public:
         launch<reorderAndFindCells>(device_, count_, count_, grid_.sortedHashes.view(),
                                     grid_.sortedIndices.view(), from, to, grid_.view());
         findPairsGrid(device_, count_, grid_.view(), grid_.sortedHashes.view(), to.positions,
-                      pairs_, scratch_);
+                      pairs_, status_.view(), scratch_);
         synchronize(device_);
     }
 

@@ -17,12 +17,12 @@ HD inline std::uint32_t fetchAdd(std::uint32_t& target, std::uint32_t value) {
 #endif
 }
 
-/// Subtracts and returns the value before.
-HD inline std::uint32_t fetchSubtract(std::uint32_t& target, std::uint32_t value) {
+/// Stores value and returns the value before.
+HD inline std::uint32_t exchange(std::uint32_t& target, std::uint32_t value) {
 #ifdef __CUDA_ARCH__
-    return atomicSub(&target, value);
+    return atomicExch(&target, value);
 #else
-    return __atomic_fetch_sub(&target, value, __ATOMIC_RELAXED);
+    return __atomic_exchange_n(&target, value, __ATOMIC_RELAXED);
 #endif
 }
 

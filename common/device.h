@@ -30,14 +30,19 @@ std::string describe(Device device);
 /// Bytes that can still be allocated on the device.
 std::size_t freeMemory(Device device);
 
-// Raw memory, used by DeviceBuffer alone. Every call throws on failure, naming the bytes asked for.
-// Copies and fills run in the order of the kernels launched before them.
+// Raw memory, used by DeviceBuffer alone. Every call throws on failure, naming the bytes asked
+// for. Copies and fills run in the order of the kernels launched before them.
 void* allocateBytes(Device device, std::size_t bytes);
 void releaseBytes(Device device, void* data) noexcept;
 void copyToDevice(Device device, void* to, const void* from, std::size_t bytes);
 void copyToHost(Device device, void* to, const void* from, std::size_t bytes);
 void copyWithin(Device device, void* to, const void* from, std::size_t bytes);
 void fillBytes(Device device, void* data, int byte, std::size_t bytes);
+
+// Page-locked host memory, used by Readback alone. The copy does not wait for the device.
+void* allocatePinned(Device device, std::size_t bytes);
+void releasePinned(Device device, void* data) noexcept;
+void copyToPinned(Device device, void* to, const void* from, std::size_t bytes);
 
 /// Returns when all work given to the device is done.
 void synchronize(Device device);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/algorithms.h"
+#include "common/atomics.cuh"
 #include "common/bodies.cuh"
 #include "common/pair_list.cuh"
 
@@ -21,12 +21,23 @@ struct ResponseRound {
     View<StepStatus> status;
 };
 
+/// Tells the host what a response must not keep to itself: a body that is no longer finite, or one
+/// that moved (by `motion`, m) farther than the grid can follow in this round.
+HD inline void reportMotion(int i, const ResponseRound& round, Vec3 motion, Vec3 position,
+                            Vec3 velocity) {
+    if (!isFinite(position) || !isFinite(velocity))
+        lowerTo(round.status[0].notFiniteAfterImpulse, round.from.ids[i]);
+    const float limit = round.motionShare * (round.halfCell - round.from.positions[i].w);
+    // Every thread that gets here writes the same 1, so the order cannot show.
+    if (lengthSquared(motion) > limit * limit) round.status[0].staleGrid = 1;
+}
+
 /// A way of resolving collisions. One file an implementation, in solutions/07 and 11.
 class Response {
 public:
     virtual ~Response() = default;
     /// Enqueues the kernels of one round; never waits for the device.
-    virtual void resolve(const ResponseRound& round, Scratch& scratch) = 0;
+    virtual void resolve(const ResponseRound& round) = 0;
     /// Makes room for `capacity` pairs.
     virtual void reserve(std::size_t capacity) = 0;
     /// Device bytes in use.

@@ -28,6 +28,10 @@ HD inline void loadVector(int i, View<const std::uint32_t> ids, View<const Vec4>
                           View<Vec3> byBody) {
     byBody[ids[i]] = xyz(slots[i]);
 }
+HD inline void storeInverseW(int i, View<const std::uint32_t> ids, View<const float> byBody,
+                             View<Vec4> slots) {
+    slots[i].w = 1.0f / byBody[ids[i]];
+}
 HD inline void storeW(int i, View<const std::uint32_t> ids, View<const float> byBody,
                       View<Vec4> slots) {
     slots[i].w = byBody[ids[i]];
@@ -160,46 +164,58 @@ private:
         masses.upload(std::vector<float>(count_, 1.0f));
     }
 
-    // The kernels that move each property, found by the field's address.
-    void store(const BodyField<Vec3>& field, View<const Vec3> byBody) {
-        const BodiesView state = view(state_);
-        const View<Vec4> slots = &field == &positions ? state.positions : state.velocities;
-        launch<storeVector>(device_, static_cast<int>(count_), View<const std::uint32_t>(state.ids),
-                            byBody, slots);
+    // How each property gets to the slots and back. Fields are told apart by their address.
+
+    void store(const BodyField<Vec3>& field, std::span<const Vec3> values) {
+        DeviceBuffer<Vec3> byBody(device_, count_, "vectors by body");
+        byBody.upload(values);
+        launch<storeVector>(device_, intCount(), view(state_).ids, byBody.view(), slotsOf(field));
+        synchronize(device_);
     }
-    void load(const BodyField<Vec3>& field, View<Vec3> byBody) {
-        const BodiesView state = view(state_);
-        const View<Vec4> slots = &field == &positions ? state.positions : state.velocities;
-        launch<loadVector>(device_, static_cast<int>(count_), View<const std::uint32_t>(state.ids),
-                           View<const Vec4>(slots), byBody);
+    std::vector<Vec3> load(const BodyField<Vec3>& field) {
+        DeviceBuffer<Vec3> byBody(device_, count_, "vectors by body");
+        launch<loadVector>(device_, intCount(), view(state_).ids, slotsOf(field), byBody.view());
+        return byBody.download();
     }
-    void store(const BodyField<float>& field, View<const float> byBody) {
+    View<Vec4> slotsOf(const BodyField<Vec3>& field) {
+        return &field == &positions ? view(state_).positions : view(state_).velocities;
+    }
+
+    void store(const BodyField<float>& field, std::span<const float> values) {
+        DeviceBuffer<float> byBody(device_, count_, "scalars by body");
+        byBody.upload(values);
         const BodiesView state = view(state_);
-        const View<const std::uint32_t> ids = state.ids;
-        const int count = static_cast<int>(count_);
+        if (&field == &restitutions) {
+            launch<storeScalar>(device_, intCount(), state.ids, byBody.view(), state.restitutions);
+        } else if (&field == &masses) {
+            launch<storeInverseW>(device_, intCount(), state.ids, byBody.view(), state.velocities);
+            massesByBody_.assign(values.begin(), values.end());
+        } else {
+            launch<storeW>(device_, intCount(), state.ids, byBody.view(), state.positions);
+            largestRadius_ = reduceMaximum(device_, intCount(), byBody.data(), scratch_);
+        }
+        synchronize(device_);
+    }
+    std::vector<float> load(const BodyField<float>& field) {
+        // The slots hold 1 / mass, which does not give every mass back to the last bit.
+        if (&field == &masses) return massesByBody_;
+        DeviceBuffer<float> byBody(device_, count_, "scalars by body");
+        const BodiesView state = view(state_);
         if (&field == &restitutions)
-            return launch<storeScalar>(device_, count, ids, byBody, state.restitutions);
-        launch<storeW>(device_, count, ids, byBody,
-                       &field == &radii ? state.positions : state.velocities);
-        if (&field == &radii) largestRadius_ = reduceMaximum(device_, count, byBody.data, scratch_);
+            launch<loadScalar>(device_, intCount(), state.ids, state.restitutions, byBody.view());
+        else
+            launch<loadW>(device_, intCount(), state.ids, state.positions, byBody.view());
+        return byBody.download();
     }
-    void load(const BodyField<float>& field, View<float> byBody) {
-        const BodiesView state = view(state_);
-        const View<const std::uint32_t> ids = state.ids;
-        const int count = static_cast<int>(count_);
-        if (&field == &restitutions)
-            return launch<loadScalar>(device_, count, ids, View<const float>(state.restitutions),
-                                      byBody);
-        launch<loadW>(device_, count, ids,
-                      View<const Vec4>(&field == &radii ? state.positions : state.velocities),
-                      byBody);
-    }
+
+    int intCount() const { return static_cast<int>(count_); }
 
     Device device_;
     std::size_t count_;
     std::vector<MovingArrays> moving_;
     std::vector<FixedArrays> fixed_;
     Copies state_;
+    std::vector<float> massesByBody_;
     float largestRadius_ = 0.0f;
     Scratch scratch_{device_, 0, "scratch"};
 };
@@ -213,17 +229,12 @@ void BodyField<T>::upload(std::span<const T> values) {
         const std::string fault = fault_(values[k]);
         if (!fault.empty()) throw InputError("body " + std::to_string(k) + ": " + fault);
     }
-    DeviceBuffer<T> byBody(bodies_.device(), values.size(), name_);
-    byBody.upload(values);
-    bodies_.store(*this, byBody.view());
-    synchronize(bodies_.device());
+    bodies_.store(*this, values);
 }
 
 template <class T>
 std::vector<T> BodyField<T>::download() {
-    DeviceBuffer<T> byBody(bodies_.device(), bodies_.count(), name_);
-    bodies_.load(*this, byBody.view());
-    return byBody.download();
+    return bodies_.load(*this);
 }
 
 }  // namespace ballpit

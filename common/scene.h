@@ -27,8 +27,8 @@ Scene makeGravityFall(int count, std::uint64_t seed);
 /// ball, one contact a ball. No gravity.
 Scene makeUniform(int count, std::uint64_t seed);
 
-/// Equal elastic balls (r 0.5 m, 1 kg) that fill 40 % of their cube and move a tenth of their
-/// radius a step: a dense gas, one to two contacts a ball. No gravity.
+/// Equal elastic balls (r 0.5 m, 1 kg) that fill 48 % of their cube and move up to a twentieth of
+/// their radius a step: a dense gas, one to two contacts a ball. No gravity.
 Scene makeGas(int count, std::uint64_t seed);
 
 /// Equal balls (r 0.5 m, 1 kg, e 0.3) stacked in a cube with hardly any room: about three touching

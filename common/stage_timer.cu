@@ -83,6 +83,8 @@ void StageTimer::stop() {
     endRange();
 }
 
+void StageTimer::clear() { stages_.clear(); }
+
 std::vector<StageTime> StageTimer::read() {
     synchronize(clock_->device);
     std::vector<StageTime> times;

@@ -31,7 +31,10 @@ public:
     void start(const char* stage);
     void stop();
 
-    /// The stages since the last read, in order. Waits for the device.
+    /// Forgets what was timed.
+    void clear();
+
+    /// The stages since the last read or clear, in order. Waits for the device.
     std::vector<StageTime> read();
 
 private:

@@ -16,38 +16,41 @@
 
 namespace ballpit {
 
-/// Calls visit(j) for every slot j of `range` whose body touches `mine`.
-template <class Visit>
-HD void visitTouching(SlotRange range, Vec4 mine, View<const Vec4> positions, Visit& visit) {
-    for (std::uint32_t j = range.begin; j < range.end; ++j) {
-        if (spheresTouch(mine, positions[j])) visit(j);
-    }
-}
+/// The runs of slots in which body i finds the partners after it, in rising order.
+struct SearchRanges {
+    SlotRange rows[5];
+};
 
-/// Calls visit(j) for every slot j after i whose body touches body i, in rising order. The cell is
-/// the one body i was sorted into, taken from its hash, so that bodies may have moved since: all
-/// are found as long as none has moved farther than half a cell less its radius.
-template <class Visit>
-HD void visitPartnersAfter(int i, GridView grid, View<const std::uint32_t> sortedHashes,
-                           View<const Vec4> positions, Visit visit) {
+/// The rest of the own row, the next row of this layer (dy = 1), and three rows of the next layer
+/// (dz = 1). The cell is the one body i was sorted into, taken from its hash, so that bodies may
+/// have moved since: all partners are found as long as no body has moved farther than half a cell
+/// less its radius. All five are fetched before any is searched, since memory answers late.
+HD inline SearchRanges rangesAfter(int i, const GridView& grid,
+                                   View<const std::uint32_t> sortedHashes) {
     const std::uint32_t hash = sortedHashes[i];
     const Int3 cell = cellFromHash(grid.resolution, hash);
-    const Vec4 mine = positions[i];
     const std::uint32_t left = cell.x > 0 ? 1 : 0;
     const std::uint32_t right = cell.x + 1 < grid.resolution.x ? 1 : 0;
+    const auto row = [&](int dy, int dz) -> SlotRange {
+        const Int3 there{cell.x, cell.y + dy, cell.z + dz};
+        if (there.y < 0 || there.y >= grid.resolution.y || there.z >= grid.resolution.z)
+            return {0, 0};
+        const std::uint32_t middle = cellHash(grid.resolution, there);
+        return slotsOfRow(grid, middle - left, middle + right);
+    };
+    const SlotRange rest{static_cast<std::uint32_t>(i) + 1u, grid.cellEnds[hash + right]};
+    return {{rest, row(1, 0), row(-1, 1), row(0, 1), row(1, 1)}};
+}
 
-    // The rest of the own row: from the next slot on.
-    const std::uint32_t next = static_cast<std::uint32_t>(i) + 1u;
-    visitTouching({next, grid.cellEnds[hash + right]}, mine, positions, visit);
-
-    // The next row of this layer (dz = 0, dy = 1), then the three rows of the next layer.
-    for (int dz = 0; dz <= 1; ++dz) {
-        for (int dy = dz == 0 ? 1 : -1; dy <= 1; ++dy) {
-            const Int3 there{cell.x, cell.y + dy, cell.z + dz};
-            if (there.y < 0 || there.y >= grid.resolution.y || there.z >= grid.resolution.z)
-                continue;
-            const std::uint32_t middle = cellHash(grid.resolution, there);
-            visitTouching(slotsOfRow(grid, middle - left, middle + right), mine, positions, visit);
+/// Calls visit(j) for every slot j after i whose body touches body i, in rising order.
+template <class Visit>
+HD void visitPartnersAfter(int i, const GridView& grid, View<const std::uint32_t> sortedHashes,
+                           View<const Vec4> positions, Visit visit) {
+    const SearchRanges ranges = rangesAfter(i, grid, sortedHashes);
+    const Vec4 mine = positions[i];
+    for (const SlotRange& row : ranges.rows) {
+        for (std::uint32_t j = row.begin; j < row.end; ++j) {
+            if (spheresTouch(mine, positions[j])) visit(j);
         }
     }
 }
@@ -65,12 +68,23 @@ HD inline void broadPhaseCollision(int i, GridView grid, View<const std::uint32_
     counts[i] = count;
 }
 
+/// Tells the host how many pairs a round found: the first round's, and the most of any round.
+HD inline void reportPairs(std::uint32_t found, StepStatus& status) {
+    if (status.roundsDetected == 0) status.collisions = found;
+    if (found > status.pairsNeeded) status.pairsNeeded = found;
+    ++status.roundsDetected;
+}
+
 /// Writes the pairs of body i to its places in the list: from memory, or by a second search where
-/// there were too many to remember. Places past the capacity are counted but not written.
+/// there were too many to remember. Places past the capacity are counted but not written. Body 0
+/// also reports how many pairs there are.
 HD inline void writePairs(int i, GridView grid, View<const std::uint32_t> sortedHashes,
                           View<const Vec4> positions, View<const std::uint32_t> counts,
-                          View<const std::uint32_t> remembered, PairsView list) {
+                          View<const std::uint32_t> remembered, PairsView list,
+                          View<StepStatus> status) {
+    if (i == 0) reportPairs(list.starts[counts.count], status[0]);
     std::uint32_t place = list.starts[i];
+    if (list.starts[i + 1] < place) status[0].pairsUncountable = 1;  // the scan ran past 2^32
     const auto write = [&](std::uint32_t j) {
         if (place < list.pairs.count) list.pairs[place] = {static_cast<std::uint32_t>(i), j};
         ++place;
@@ -84,12 +98,12 @@ HD inline void writePairs(int i, GridView grid, View<const std::uint32_t> sorted
 /// Fills `list` with all touching pairs of `count` bodies in the built grid.
 inline void findPairsGrid(Device device, int count, GridView grid,
                           View<const std::uint32_t> sortedHashes, View<const Vec4> positions,
-                          PairList& list, Scratch& scratch) {
+                          PairList& list, View<StepStatus> status, Scratch& scratch) {
     const View<std::uint32_t> counts = list.counts.view(), remembered = list.remembered.view();
     launch<broadPhaseCollision>(device, count, grid, sortedHashes, positions, counts, remembered);
     exclusiveScan(device, count, list.counts.data(), list.starts.data(), scratch);
     launch<writePairs>(device, count, grid, sortedHashes, positions, counts, remembered,
-                       list.view());
+                       list.view(), status);
 }
 
 }  // namespace ballpit

@@ -25,25 +25,18 @@ struct ContactCounts {
     std::uint32_t touching, approaching;
 };
 
-/// Sorts body i's incoming partners and counts its contacts.
+/// Sorts body i's incoming pairs and counts its contacts.
 HD inline void countContacts(int i, BodiesView bodies, ContactsView contacts,
                              View<ContactCounts> counts) {
     sortIncoming(i, contacts);
-    const Vec4 sphere = bodies.positions[i], moving = bodies.velocities[i];
-    const std::uint32_t id = bodies.ids[i];
     ContactCounts mine{0, 0};
     visitPartners(i, contacts, [&](std::uint32_t j) {
-        const Contact contact = contactBetween(sphere, bodies.positions[j], id, bodies.ids[j]);
-        const float separation = separationSpeed(moving, bodies.velocities[j], contact.normal);
+        const Vec3 line = lineOfCentres(static_cast<std::uint32_t>(i), j, bodies);
         ++mine.touching;
-        if (separation < 0.0f) ++mine.approaching;
+        if (separationAlong(line, bodies.velocities[i], bodies.velocities[j]) < 0.0f)
+            ++mine.approaching;
     });
     counts[i] = mine;
-}
-
-/// 1/m of the share that a body of mass `mass` (kg) brings to each of `contactCount` contacts.
-HD inline float splitInverseMass(float mass, std::uint32_t contactCount) {
-    return static_cast<float>(contactCount) / mass;
 }
 
 /// What one round of contacts does to a body.
@@ -53,50 +46,47 @@ struct Change {
 };
 
 /// What the contact with body j does to body i. Swapping i and j gives exactly the opposite
-/// impulse and the opposite push, to the last bit.
-HD inline Change changeFromContact(int i, std::uint32_t j, const BodiesView& bodies,
+/// impulse and the opposite push, to the last bit. A body of inverse mass 1/m that splits among n
+/// contacts has the inverse mass n/m in each of them.
+HD inline Change changeFromContact(std::uint32_t i, std::uint32_t j, const BodiesView& bodies,
                                    View<const ContactCounts> counts) {
-    const Vec4 velocityI = bodies.velocities[i], velocityJ = bodies.velocities[j];
-    const float massI = velocityI.w, massJ = velocityJ.w;
-    const Contact contact =
-        contactBetween(bodies.positions[i], bodies.positions[j], bodies.ids[i], bodies.ids[j]);
+    const float inverseMassI = bodies.velocities[i].w, inverseMassJ = bodies.velocities[j].w;
     const ContactCounts countsI = counts[i], countsJ = counts[j];
+    const Contact contact = contactBetween(i, j, bodies);
     Change change;
 
-    const float separation = separationSpeed(velocityI, velocityJ, contact.normal);
-    if (separation < 0.0f) {
+    if (contact.separation < 0.0f) {
         const float impulse = impulseAlongNormal(
-            separation, combinedRestitution(bodies.restitutions[i], bodies.restitutions[j]),
-            splitInverseMass(massI, countsI.approaching) +
-                splitInverseMass(massJ, countsJ.approaching));
-        change.velocity = -(impulse / massI) * contact.normal;
+            contact.separation, combinedRestitution(bodies.restitutions[i], bodies.restitutions[j]),
+            static_cast<float>(countsI.approaching) * inverseMassI +
+                static_cast<float>(countsJ.approaching) * inverseMassJ);
+        change.velocity = -(impulse * inverseMassI) * contact.normal;
     }
 
-    const float push = contact.penetration / (splitInverseMass(massI, countsI.touching) +
-                                              splitInverseMass(massJ, countsJ.touching));
-    change.position = -(push / massI) * contact.normal;
+    const float push = contact.penetration / (static_cast<float>(countsI.touching) * inverseMassI +
+                                              static_cast<float>(countsJ.touching) * inverseMassJ);
+    change.position = -(push * inverseMassI) * contact.normal;
     return change;
 }
 
-/// Adds up what all contacts do to body i, and writes its new velocity and position to `to`.
+/// Adds up what all contacts do to body i, and writes its new velocity and position to `to`. Also
+/// empties its string of incoming pairs for the next round.
 HD inline void collisionResponse(int i, ResponseRound round, ContactsView contacts,
                                  View<const ContactCounts> counts) {
-    const Vec4 sphere = round.from.positions[i], moving = round.from.velocities[i];
     Change sum;
     visitPartners(i, contacts, [&](std::uint32_t j) {
-        const Change change = changeFromContact(i, j, round.from, counts);
+        const Change change =
+            changeFromContact(static_cast<std::uint32_t>(i), j, round.from, counts);
         sum.velocity += change.velocity;
         sum.position += change.position;
     });
+    contacts.firstIncoming[i] = noPair;
 
+    const Vec4 sphere = round.from.positions[i], moving = round.from.velocities[i];
     const Vec3 position = xyz(sphere) + sum.position, velocity = xyz(moving) + sum.velocity;
-    if (!isFinite(position) || !isFinite(velocity))
-        lowerTo(round.status[0].notFiniteAfterImpulse, round.from.ids[i]);
-    // Every thread that gets here writes the same 1, so the order cannot show.
-    if (length(sum.position) > round.motionShare * (round.halfCell - sphere.w))
-        round.status[0].staleGrid = 1;
     round.to.positions[i] = withW(position, sphere.w);
     round.to.velocities[i] = withW(velocity, moving.w);
+    reportMotion(i, round, sum.position, position, velocity);
 }
 
 /// Mass-split impulses, gathered.
@@ -107,8 +97,8 @@ public:
           lists_(device, bodyCount, pairCapacity),
           counts_(device, bodyCount, "contactCounts") {}
 
-    void resolve(const ResponseRound& round, Scratch& scratch) override {
-        const ContactsView contacts = lists_.collect(round.bodyCount, round.pairs, scratch);
+    void resolve(const ResponseRound& round) override {
+        const ContactsView contacts = lists_.link(round.bodyCount, round.pairs);
         launch<countContacts>(device_, round.bodyCount, round.from, contacts, counts_.view());
         launch<collisionResponse>(device_, round.bodyCount, round, contacts, counts_.view());
     }
@@ -116,7 +106,7 @@ public:
     std::size_t bytes() const override { return lists_.bytes() + counts_.bytes(); }
 
     static std::size_t predictedBytes(std::size_t bodyCount, std::size_t pairCapacity) {
-        return (2 * bodyCount + 1 + pairCapacity) * sizeof(std::uint32_t) +
+        return ContactLists::predictedBytes(bodyCount, pairCapacity) +
                bodyCount * sizeof(ContactCounts);
     }
 

@@ -19,22 +19,20 @@ HD inline void copyBody(int i, BodiesView from, BodiesView to) {
 HD inline void resolvePairInPlace(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
     const Vec4 velocityA = bodies.velocities[a], velocityB = bodies.velocities[b];
     const Vec4 sphereA = bodies.positions[a], sphereB = bodies.positions[b];
-    const float inverseMassA = 1.0f / velocityA.w, inverseMassB = 1.0f / velocityB.w;
-    const float inverseMassSum = inverseMassA + inverseMassB;
-    const Contact contact = contactBetween(sphereA, sphereB, bodies.ids[a], bodies.ids[b]);
+    const float inverseMassSum = velocityA.w + velocityB.w;
+    const Contact contact = contactBetween(a, b, bodies);
 
-    const float separation = separationSpeed(velocityA, velocityB, contact.normal);
-    if (separation < 0.0f) {
+    if (contact.separation < 0.0f) {
         const float impulse = impulseAlongNormal(
-            separation, combinedRestitution(bodies.restitutions[a], bodies.restitutions[b]),
+            contact.separation, combinedRestitution(bodies.restitutions[a], bodies.restitutions[b]),
             inverseMassSum);
         const Vec3 kick = impulse * contact.normal;
-        bodies.velocities[a] = withW(xyz(velocityA) - inverseMassA * kick, velocityA.w);
-        bodies.velocities[b] = withW(xyz(velocityB) + inverseMassB * kick, velocityB.w);
+        bodies.velocities[a] = withW(xyz(velocityA) - velocityA.w * kick, velocityA.w);
+        bodies.velocities[b] = withW(xyz(velocityB) + velocityB.w * kick, velocityB.w);
     }
     const Vec3 push = (contact.penetration / inverseMassSum) * contact.normal;
-    bodies.positions[a] = withW(xyz(sphereA) - inverseMassA * push, sphereA.w);
-    bodies.positions[b] = withW(xyz(sphereB) + inverseMassB * push, sphereB.w);
+    bodies.positions[a] = withW(xyz(sphereA) - velocityA.w * push, sphereA.w);
+    bodies.positions[b] = withW(xyz(sphereB) + velocityB.w * push, sphereB.w);
 }
 
 /// All pairs of body i, in place. This is the race: other threads hold the same bodies.
@@ -46,10 +44,7 @@ HD inline void collisionResponseRacy(int i, ResponseRound round) {
 /// Reports what collisionResponse reports, after the fact.
 HD inline void reportRound(int i, ResponseRound round) {
     const Vec3 before = xyz(round.from.positions[i]), after = xyz(round.to.positions[i]);
-    if (!isFinite(after) || !isFinite(xyz(round.to.velocities[i])))
-        lowerTo(round.status[0].notFiniteAfterImpulse, round.from.ids[i]);
-    if (length(after - before) > round.motionShare * (round.halfCell - round.from.positions[i].w))
-        round.status[0].staleGrid = 1;
+    reportMotion(i, round, after - before, after, xyz(round.to.velocities[i]));
 }
 
 /// In place, in parallel, without atomics.
@@ -57,7 +52,7 @@ class RacyResponse : public Response {
 public:
     explicit RacyResponse(Device device) : device_(device) {}
 
-    void resolve(const ResponseRound& round, Scratch&) override {
+    void resolve(const ResponseRound& round) override {
         launch<copyBody>(device_, round.bodyCount, round.from, round.to);
         launch<collisionResponseRacy>(device_, round.bodyCount, round);
         launch<reportRound>(device_, round.bodyCount, round);

@@ -12,58 +12,18 @@
 #include <memory>
 #include <tuple>
 
-#include "02_grid_hash/grid_hash.cuh"
 #include "03_sort/sort.cuh"
-#include "04_reorder/reorder.cuh"
-#include "05_cell_bounds/cell_bounds.cuh"
 #include "06_broad_phase/broad_phase.cuh"
 #include "07_impulse_response/impulse_response.cuh"
-#include "07_impulse_response/integrate.cuh"
 #include "07_impulse_response/racy_response.cuh"
 #include "10_full_system/simulator_settings.h"
+#include "10_full_system/step_parts.cuh"
 #include "common/launch_recording.cuh"
+#include "common/readback.cuh"
 #include "common/rigid_body.cuh"
 #include "common/stage_timer.h"
 
 namespace ballpit {
-
-struct StepStats {
-    std::uint32_t collisions = 0;   ///< touching pairs in the first round
-    double frameTimeMs = 0.0;       ///< wall time of the step
-    std::uint32_t outside = 0;      ///< bodies that were outside the world when hashed
-    std::uint32_t overflow = 0;     ///< pairs found beyond the capacity, before it grew; none lost
-    bool gridRebuilt = false;       ///< the grid was built again between the rounds
-    std::vector<StageTime> stages;  ///< with SimulatorSettings::timeStages
-};
-
-// Two kernels that run two stages on the same index: a launch each for what would be four.
-
-HD inline void integrateAndHash(int i, BodiesView from, BodiesView to, MotionSettings motion,
-                                GridView grid, View<std::uint32_t> hashes,
-                                View<std::uint32_t> indices, View<StepStatus> status) {
-    integrate(i, from, to, motion, status);
-    computeGridHash(i, grid, to.positions, hashes, indices, status);
-}
-
-HD inline void reorderAndFindCells(int i, int count, View<const std::uint32_t> sortedHashes,
-                                   View<const std::uint32_t> sortedIndices, BodiesView from,
-                                   BodiesView to, GridView grid) {
-    reorderData(i, sortedIndices, from, to);
-    findCellStart(i, count, sortedHashes, grid);
-}
-
-/// Nothing to report yet. One thread.
-HD inline void clearStatus(int, View<StepStatus> status) {
-    status[0] = {0, 0, 0, 0, noBody, noBody};
-}
-
-/// Writes what the host must know of a round's pair list. One thread.
-HD inline void reportPairs(int, int bodyCount, int round, PairsView pairs,
-                           View<StepStatus> status) {
-    const std::uint32_t found = pairs.starts[bodyCount];
-    if (round == 0) status[0].collisions = found;
-    if (found > status[0].pairsNeeded) status[0].pairsNeeded = found;
-}
 
 class PhysicsSimulator {
 public:
@@ -75,7 +35,7 @@ public:
           grid_(settings.device, settings.bounds, settings.cellSize, count_),
           pairs_(settings.device, static_cast<std::size_t>(count_), settings.firstPairCapacity()),
           response_(makeResponse(settings)),
-          status_(settings.device, 1, "status"),
+          status_(settings.device),
           scratch_(settings.device, 0, "scratch"),
           timer_(settings.device) {
         timer_.enable(settings.timeStages);
@@ -158,11 +118,10 @@ public:
     }
 
     /// Lists all touching pairs of the bodies in `copies`.
-    void detectCollisions(RigidBodySystem::Copies copies, int round) {
+    void detectCollisions(RigidBodySystem::Copies copies) {
         timer_.start("broad phase");
         findPairsGrid(settings_.device, count_, grid_.view(), grid_.sortedHashes.view(),
-                      bodies_.view(copies).positions, pairs_, scratch_);
-        launch<reportPairs>(settings_.device, 1, count_, round, pairs_.view(), status_.view());
+                      bodies_.view(copies).positions, pairs_, status_.view(), scratch_);
     }
 
     /// Resolves the listed pairs, `from` to `to`.
@@ -170,8 +129,7 @@ public:
                            float motionShare) {
         timer_.start("response");
         response_->resolve({count_, bodies_.view(from), bodies_.view(to), pairs_.view(),
-                            0.5f * grid_.cellSize, motionShare, status_.view()},
-                           scratch_);
+                            0.5f * grid_.cellSize, motionShare, status_.view()});
     }
 
 private:
@@ -220,6 +178,7 @@ private:
         bool rebuild = settings_.iterations > 1 && (noRoom || stepsDone_ < rebuildUntil_);
         for (;;) {
             const StepStatus status = attempt(rebuild);
+            requireCountable(status);
             if (status.pairsNeeded > pairs_.pairs.count()) {
                 stats.overflow =
                     status.pairsNeeded - static_cast<std::uint32_t>(pairs_.pairs.count());
@@ -255,6 +214,12 @@ private:
         recordings_.clear();
     }
 
+    static void requireCountable(const StepStatus& status) {
+        if (status.pairsUncountable)
+            throw std::runtime_error(
+                "more touching pairs than 32 bits can count: nearly all balls lie in one place");
+    }
+
     void requireFinite(const StepStatus& status) const {
         const bool early = status.notFiniteAfterMoving != noBody;
         const std::uint32_t body =
@@ -269,6 +234,7 @@ private:
     /// first time scratch memory may have to be allocated).
     StepStatus attempt(bool rebuild) {
         const Copies from = bodies_.state();
+        timer_.clear();
         const bool useRecording = settings_.device == Device::cuda && !settings_.timeStages;
         if (useRecording && scratchReady_) {
             auto [place, isNew] = recordings_.try_emplace({from.moving, from.fixed, rebuild});
@@ -280,7 +246,7 @@ private:
             next_ = enqueueStep(from, rebuild);
             scratchReady_ = true;
         }
-        return status_.download()[0];
+        return status_.wait();
     }
 
     static std::size_t following(std::size_t copy, std::size_t distance) {
@@ -299,13 +265,14 @@ private:
                 hash(now);
                 now = sortInto(from, now);
             }
-            detectCollisions(now, round);
+            detectCollisions(now);
             const Copies resolved{otherWorkingCopy(from.moving, now.moving), now.fixed};
             const bool last = round == settings_.iterations - 1;
             resolveCollisions(now, resolved, last || rebuild ? unlimitedMotion : share);
             now = resolved;
         }
         timer_.stop();
+        status_.enqueueCopy();
         return now;
     }
 
@@ -333,7 +300,7 @@ private:
     UniformGrid grid_;
     PairList pairs_;
     std::unique_ptr<Response> response_;
-    DeviceBuffer<StepStatus> status_;
+    Readback<StepStatus> status_;
     Scratch scratch_;
     StageTimer timer_;
     std::map<std::tuple<std::size_t, std::size_t, bool>, RecordedStep> recordings_;

@@ -10,9 +10,11 @@ target_compile_options(warnings INTERFACE
 
 # Exactness: the same bits on CPU and GPU. No fused multiply-add anywhere, never fast-math.
 add_library(exact_math INTERFACE)
-target_compile_options(exact_math INTERFACE
-    $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>
-    "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:--fmad=false -Xcompiler=-ffp-contract=off>")
+if(BALLPIT_EXACT)
+    target_compile_options(exact_math INTERFACE
+        $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>
+        "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:--fmad=false -Xcompiler=-ffp-contract=off>")
+endif()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     # floorf and friends as one instruction: any processor since 2009. No FMA in this set.
     target_compile_options(exact_math INTERFACE
