@@ -2,6 +2,7 @@
 #include "common/frame.h"
 
 #include "common/error.h"
+#include "common/libav.h"
 
 #include <cerrno>
 #include <cstring>
@@ -10,27 +11,11 @@
 #include <memory>
 #include <stdexcept>
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-}
-
 namespace ballpit {
 namespace {
 
-struct Free {
-    void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-template <class T>
-using Owned = std::unique_ptr<T, Free>;
-
-void check(int result, const char* what) {
-    if (result >= 0) return;
-    char words[AV_ERROR_MAX_STRING_SIZE] = {};
-    av_strerror(result, words, sizeof words);
-    throw std::runtime_error(std::string("PNG: ") + what + " failed: " + words);
-}
+using libav::check;
+using libav::Owned;
 
 Owned<AVCodecContext> openEncoder(int width, int height) {
     const AVCodec* codec = avcodec_find_encoder(AV_CODEC_ID_PNG);
@@ -42,7 +27,7 @@ Owned<AVCodecContext> openEncoder(int width, int height) {
     context->pix_fmt = AV_PIX_FMT_RGB24;
     context->time_base = {1, 1};
     context->thread_count = 1;  // the threaded encoder would want a second frame first
-    check(avcodec_open2(context.get(), codec, nullptr), "opening the encoder");
+    check(avcodec_open2(context.get(), codec, nullptr), "PNG: opening the encoder");
     return context;
 }
 
@@ -58,9 +43,9 @@ Owned<AVPacket> encode(const Frame& frame) {
     picture->linesize[0] = 3 * frame.width;
 
     Owned<AVPacket> packet(av_packet_alloc());
-    check(avcodec_send_frame(encoder.get(), picture.get()), "sending the frame");
-    check(avcodec_send_frame(encoder.get(), nullptr), "flushing");
-    check(avcodec_receive_packet(encoder.get(), packet.get()), "encoding");
+    check(avcodec_send_frame(encoder.get(), picture.get()), "PNG: sending the frame");
+    check(avcodec_send_frame(encoder.get(), nullptr), "PNG: flushing");
+    check(avcodec_receive_packet(encoder.get(), packet.get()), "PNG: encoding");
     return packet;
 }
 

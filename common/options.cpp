@@ -60,7 +60,7 @@ std::string oneLine(const CLI::App& app, const CLI::ParseError& error, int argc,
         };
         for (int k = 1; k < argc; ++k) {
             const std::string word = std::string(argv[k]).substr(0, std::string(argv[k]).find('='));
-            if (word.rfind("-", 0) != 0 || known(word)) continue;
+            if (word.empty() || word[0] != '-' || known(word)) continue;
             std::string nearest = "--help";
             for (const CLI::Option* option : app.get_options())
                 if (editDistance(word, option->get_name()) < editDistance(word, nearest))

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "common/device.h"
 #include "common/error.h"
 #include "common/random.h"
 
@@ -186,8 +187,23 @@ Scene makePile(int count, std::uint64_t seed) {
     return scene;
 }
 
+namespace {
+
+/// InputError unless the host has room for the balls: asked before a scene of billions is begun.
+void requireRoomFor(int count) {
+    constexpr std::size_t bytesPerBall = 4 * sizeof(Vec3) + 4 * sizeof(float);
+    const std::size_t needed = bytesPerBall * static_cast<std::size_t>(count);
+    if (needed <= freeMemory(Device::cpu)) return;
+    throw InputError("count " + std::to_string(count) + " needs " + std::to_string(needed >> 30) +
+                     " GiB for the balls alone, but the machine has " +
+                     std::to_string(freeMemory(Device::cpu) >> 30) + " GiB free: use fewer balls");
+}
+
+}  // namespace
+
 Scene makeScene(const std::string& name, int count, std::uint64_t seed) {
     if (count < 1) throw InputError("count " + std::to_string(count) + ": at least 1 ball");
+    requireRoomFor(count);
     if (name == "gravity_fall") return makeGravityFall(count, seed);
     if (name == "uniform") return makeUniform(count, seed);
     if (name == "gas") return makeGas(count, seed);

@@ -63,7 +63,7 @@ private:
     }
     void find(Device device) {
         findPairsGrid(device, count_, grid_.view(), grid_.sortedHashes.view(),
-                      bodies_.view(bodies_.state()).positions, list_, scratch_);
+                      bodies_.view(bodies_.state()).positions, list_, status_.view(), scratch_);
     }
 
     int count_;

@@ -52,6 +52,21 @@ inline std::vector<Pair> bruteForcePairs(const Spheres& spheres) {
     return pairs;
 }
 
+/// What the exception says that `call` throws; an exception of another type goes on.
+template <class Error, class Call>
+std::string messageOf(Call call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "(nothing was thrown)";
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
 /// The floats of a list of vectors as bits, for comparisons in which -0 is not 0 and NaN is NaN.
 inline std::vector<std::uint32_t> bitsOf(const std::vector<Vec3>& values) {
     std::vector<std::uint32_t> bits;

@@ -2,6 +2,7 @@
 #include "09_video_recording/video_recorder.h"
 
 #include "common/error.h"
+#include "common/libav.h"
 
 #include <algorithm>
 #include <array>
@@ -11,10 +12,7 @@
 #include <utility>
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/opt.h>
-#include <libswscale/swscale.h>
 }
 
 namespace ballpit {
@@ -22,30 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- libav's objects, owned
-
-struct Free {
-    void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-    void operator()(SwsContext* context) const { sws_freeContext(context); }
-    void operator()(AVFormatContext* context) const {
-        avio_closep(&context->pb);
-        avformat_free_context(context);
-    }
-};
-template <class T>
-using Owned = std::unique_ptr<T, Free>;
-
-std::string wordsFor(int error) {
-    std::array<char, AV_ERROR_MAX_STRING_SIZE> words{};
-    av_strerror(error, words.data(), words.size());
-    return words.data();
-}
-
-void check(int result, const std::string& what) {
-    if (result < 0) throw std::runtime_error("video: " + what + " failed: " + wordsFor(result));
-}
+using libav::check;
+using libav::Owned;
 
 // ---- What the user asked for
 
@@ -160,7 +136,7 @@ Owned<AVFrame> makePicture(const AVCodecContext& encoder) {
     picture->format = encoder.pix_fmt;
     picture->color_range = encoder.color_range;
     picture->colorspace = encoder.colorspace;
-    check(av_frame_get_buffer(picture.get(), 0), "allocating a picture");
+    check(av_frame_get_buffer(picture.get(), 0), "video: allocating a picture");
     return picture;
 }
 
@@ -199,7 +175,7 @@ void VideoRecorder::Stream::open(int width, int height, int framesPerSecond,
                                  const std::vector<std::string>& names) {
     AVFormatContext* context = nullptr;
     check(avformat_alloc_output_context2(&context, nullptr, nullptr, part.c_str()),
-          "choosing the format of '" + path.string() + "'");
+          "video: choosing the format of '" + path.string() + "'");
     file.reset(context);
     encoder = openEncoder(names, width, height, framesPerSecond, *file->oformat);
     converter = makeConverter(width, height);
@@ -211,13 +187,15 @@ void VideoRecorder::Stream::open(int width, int height, int framesPerSecond,
 void VideoRecorder::Stream::openFile() {
     const int result = avio_open(&file->pb, part.c_str(), AVIO_FLAG_WRITE);
     if (result < 0)
-        throw InputError("cannot write the video '" + path.string() + "': " + wordsFor(result) +
+        throw InputError("cannot write the video '" + path.string() +
+                         "': " + libav::wordsFor(result) +
                          "; name a file in a folder that you may write to");
 }
 
 void VideoRecorder::Stream::writeHeader() {
     AVStream* stream = avformat_new_stream(file.get(), nullptr);
-    check(avcodec_parameters_from_context(stream->codecpar, encoder.get()), "describing the video");
+    check(avcodec_parameters_from_context(stream->codecpar, encoder.get()),
+          "video: describing the video");
     stream->time_base = encoder->time_base;  // the format may choose a finer one
     stream->avg_frame_rate = stream->r_frame_rate = encoder->framerate;
     AVDictionary* options = nullptr;
@@ -225,29 +203,29 @@ void VideoRecorder::Stream::writeHeader() {
     av_dict_set(&options, "movflags", "+faststart", 0);
     const int result = avformat_write_header(file.get(), &options);
     av_dict_free(&options);
-    check(result, "writing the header of '" + part.string() + "'");
+    check(result, "video: writing the header of '" + part.string() + "'");
 }
 
 /// Hands a picture to the encoder, or its end (null), and writes the packets that are ready: the
 /// encoder looks some frames ahead, so a packet comes later than its frame.
 void VideoRecorder::Stream::encode(const AVFrame* frameOrEnd) {
-    check(avcodec_send_frame(encoder.get(), frameOrEnd), "encoding a frame");
+    check(avcodec_send_frame(encoder.get(), frameOrEnd), "video: encoding a frame");
     while (true) {
         const int result = avcodec_receive_packet(encoder.get(), packet.get());
         if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
-        check(result, "encoding");
+        check(result, "video: encoding");
         packet->duration = 1;
         av_packet_rescale_ts(packet.get(), encoder->time_base, file->streams[0]->time_base);
         packet->stream_index = 0;
         check(av_interleaved_write_frame(file.get(), packet.get()),
-              "writing '" + part.string() + "'");
+              "video: writing '" + part.string() + "'");
     }
 }
 
 void VideoRecorder::Stream::writeTrailer() {
     if (std::exchange(trailerTried, true)) return;
-    check(av_write_trailer(file.get()), "completing '" + part.string() + "'");
-    check(avio_closep(&file->pb), "closing '" + part.string() + "'");
+    check(av_write_trailer(file.get()), "video: completing '" + part.string() + "'");
+    check(avio_closep(&file->pb), "video: closing '" + part.string() + "'");
 }
 
 void VideoRecorder::Stream::removePart() noexcept {
@@ -306,7 +284,7 @@ void VideoRecorder::captureFrame(const Frame& frame) {
 
     AVFrame& picture = *stream_->picture;
     // The encoder still looks at its last frames: this gives us a new picture if it holds ours.
-    check(av_frame_make_writable(&picture), "allocating a picture");
+    check(av_frame_make_writable(&picture), "video: allocating a picture");
     const std::uint8_t* rows = frame.rgb.data();
     const int rowBytes = 3 * frame.width;
     sws_scale(stream_->converter.get(), &rows, &rowBytes, 0, frame.height, picture.data,

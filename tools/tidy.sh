@@ -1,0 +1,8 @@
+#!/bin/sh
+# Runs clang-tidy over the project's own sources, as the build in folder $1 compiles them.
+set -eu
+cd "$(dirname "$0")/.."
+build=${1:?usage: tools/tidy.sh BUILD_FOLDER}
+git ls-files 'common/*.cpp' 'common/*.cu' 'solutions/*.cpp' 'bench/*.cpp' 'bench/*.cu' 'chapters/*.cu' |
+    grep -v without_graphics |
+    xargs -P 2 -n 2 clang-tidy -p "$build" --quiet
