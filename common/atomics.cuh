@@ -17,6 +17,15 @@ HD inline std::uint32_t fetchAdd(std::uint32_t& target, std::uint32_t value) {
 #endif
 }
 
+/// Adds to two counters at once, packed in 64 bits.
+HD inline void add(unsigned long long& target, unsigned long long value) {
+#ifdef __CUDA_ARCH__
+    atomicAdd(&target, value);
+#else
+    __atomic_fetch_add(&target, value, __ATOMIC_RELAXED);
+#endif
+}
+
 /// Stores value and returns the value before.
 HD inline std::uint32_t exchange(std::uint32_t& target, std::uint32_t value) {
 #ifdef __CUDA_ARCH__

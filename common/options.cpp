@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iostream>
 
@@ -60,7 +61,8 @@ std::string oneLine(const CLI::App& app, const CLI::ParseError& error, int argc,
         };
         for (int k = 1; k < argc; ++k) {
             const std::string word = std::string(argv[k]).substr(0, std::string(argv[k]).find('='));
-            if (word.empty() || word[0] != '-' || known(word)) continue;
+            const bool isOption = word.size() > 1 && word[0] == '-' && !std::isdigit(word[1]);
+            if (!isOption || known(word)) continue;
             std::string nearest = "--help";
             for (const CLI::Option* option : app.get_options())
                 if (editDistance(word, option->get_name()) < editDistance(word, nearest))

@@ -23,6 +23,12 @@ struct PairsView {
     View<Pair> pairs;
     View<std::uint32_t> starts;
 
+    /// How many pairs are stored.
+    HD std::uint32_t stored() const {
+        const std::uint32_t found = starts[starts.count - 1];
+        return found < pairs.count ? found : pairs.count;
+    }
+
     /// One past the last stored pair of body i.
     HD std::uint32_t endOf(int i) const {
         const std::uint32_t end = starts[i + 1];

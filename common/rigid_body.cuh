@@ -66,6 +66,9 @@ public:
     void upload(const std::vector<T>& values) { upload(std::span<const T>(values)); }
     std::vector<T> download();
 
+    /// Throws what upload would throw.
+    void check(std::span<const T> values) const;
+
 private:
     RigidBodySystem& bodies_;
     const char* name_;
@@ -102,8 +105,16 @@ public:
     /// The largest radius, m.
     float largestRadius() const { return largestRadius_; }
 
-    /// Sets everything at once. InputError as for the fields.
+    /// Sets everything at once. InputError as for the fields; nothing is changed then.
     void upload(const Spheres& spheres) {
+        positions.check(spheres.positions);
+        velocities.check(spheres.velocities);
+        radii.check(spheres.radii);
+        masses.check(spheres.masses);
+        restitutions.check(spheres.restitutions);
+        if (spheres.colors.size() != count_)
+            throw InputError("colors: " + std::to_string(spheres.colors.size()) + " values for " +
+                             std::to_string(count_) + " bodies");
         positions.upload(spheres.positions);
         velocities.upload(spheres.velocities);
         radii.upload(spheres.radii);
@@ -221,7 +232,7 @@ private:
 };
 
 template <class T>
-void BodyField<T>::upload(std::span<const T> values) {
+void BodyField<T>::check(std::span<const T> values) const {
     if (values.size() != bodies_.count())
         throw InputError(std::string(name_) + ": " + std::to_string(values.size()) +
                          " values for " + std::to_string(bodies_.count()) + " bodies");
@@ -229,6 +240,11 @@ void BodyField<T>::upload(std::span<const T> values) {
         const std::string fault = fault_(values[k]);
         if (!fault.empty()) throw InputError("body " + std::to_string(k) + ": " + fault);
     }
+}
+
+template <class T>
+void BodyField<T>::upload(std::span<const T> values) {
+    check(values);
     bodies_.store(*this, values);
 }
 

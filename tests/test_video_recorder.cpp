@@ -280,7 +280,7 @@ TEST_CASE("places that cannot be written are refused, and nothing is left there"
     CHECK(folder.names() == Names{"file.txt", "folder.mp4", "taken.part.mp4"});
 }
 
-TEST_CASE("without libx264 another encoder stands in and says so; without any, it is refused") {
+TEST_CASE("without libx264 another encoder stands in and says so, and without any it is refused") {
     const TemporaryFolder folder;
     VideoRecorder recorder(folder / "movie.mp4", width, height, rate, {"no-such-one", "mpeg4"});
     CHECK(recorder.encoderName() == "mpeg4");

@@ -23,42 +23,48 @@ struct ContactsView {
     View<std::uint32_t> nextIncoming;
 };
 
-/// Body i hangs each of its pairs on the string of the pair's second body. A full pair list is cut
-/// short by endOf; the step is then redone, and its numbers do not matter.
-HD inline void linkIncoming(int i, ContactsView contacts) {
-    for (std::uint32_t k = contacts.pairs.starts[i]; k < contacts.pairs.endOf(i); ++k) {
-        const std::uint32_t partner = contacts.pairs.pairs[k].second;
-        contacts.nextIncoming[k] = exchange(contacts.firstIncoming[partner], k);
-    }
+/// Hangs pair k on the string of its second body.
+HD inline void linkIncoming(std::uint32_t k, const ContactsView& contacts) {
+    const std::uint32_t partner = contacts.pairs.pairs[k].second;
+    contacts.nextIncoming[k] = exchange(contacts.firstIncoming[partner], k);
 }
 
-/// Insertion sort of body i's string by pair number: takes it apart, and hangs each pair where the
-/// numbers before it are smaller. Only body i's own links are touched.
-HD inline void sortIncoming(int i, const ContactsView& contacts) {
-    std::uint32_t pair = contacts.firstIncoming[i];
-    std::uint32_t first = noPair;
-    while (pair != noPair) {
-        const std::uint32_t rest = contacts.nextIncoming[pair];
-        std::uint32_t* link = &first;
-        while (*link < pair) link = &contacts.nextIncoming[*link];
-        contacts.nextIncoming[pair] = *link;
-        *link = pair;
+/// Takes body i's string and hangs it up again in rising order of the pair numbers: insertion sort,
+/// since a string is a handful of pairs. Returns its first pair. Only body i's own links are
+/// touched.
+HD inline std::uint32_t sortedIncoming(int i, const ContactsView& contacts) {
+    const View<std::uint32_t> next = contacts.nextIncoming;
+    std::uint32_t sorted = noPair;
+    for (std::uint32_t pair = contacts.firstIncoming[i]; pair != noPair;) {
+        const std::uint32_t rest = next[pair];
+        if (pair < sorted) {
+            next[pair] = sorted;
+            sorted = pair;
+        } else {
+            std::uint32_t before = sorted;
+            while (next[before] < pair) before = next[before];
+            next[pair] = next[before];
+            next[before] = pair;
+        }
         pair = rest;
     }
-    contacts.firstIncoming[i] = first;
+    return sorted;
 }
 
-/// Calls visit(j) for each partner j of body i in rising order: a fixed order of summation. Pair
-/// numbers rise with their first body, so a sorted string gives the partners before i in order.
+/// Calls visit(pair number, sign) for each contact of body i, in rising order of the partner's
+/// slot: a fixed order of summation. Sign is +1 where body i is second, -1 where it is first: the
+/// direction in which the pair's impulse acts on it.
 template <class Visit>
-HD void visitPartners(int i, const ContactsView& contacts, Visit visit) {
-    for (std::uint32_t k = contacts.firstIncoming[i]; k != noPair; k = contacts.nextIncoming[k])
-        visit(contacts.pairs.pairs[k].first);
+HD void visitContacts(int i, const ContactsView& contacts, Visit visit) {
+    // Pair numbers rise with their first body, so a sorted string gives partners in order.
+    for (std::uint32_t k = sortedIncoming(i, contacts); k != noPair; k = contacts.nextIncoming[k])
+        visit(k, 1.0f);
     for (std::uint32_t k = contacts.pairs.starts[i]; k < contacts.pairs.endOf(i); ++k)
-        visit(contacts.pairs.pairs[k].second);
+        visit(k, -1.0f);
 }
 
-/// Owns the strings of `bodyCount` bodies. Between two uses every string is empty.
+/// Owns the strings of `bodyCount` bodies. Between two uses every string is empty: whoever reads a
+/// string empties it.
 class ContactLists {
 public:
     ContactLists(Device device, std::size_t bodyCount, std::size_t pairCapacity)
@@ -67,11 +73,8 @@ public:
         firstIncoming_.fill(0xFF);
     }
 
-    /// Hangs all pairs on their strings, still unsorted. Who uses the strings empties them.
-    ContactsView link(int bodyCount, PairsView pairs) {
-        const ContactsView contacts{pairs, firstIncoming_.view(), nextIncoming_.view()};
-        launch<linkIncoming>(firstIncoming_.device(), bodyCount, contacts);
-        return contacts;
+    ContactsView view(PairsView pairs) {
+        return {pairs, firstIncoming_.view(), nextIncoming_.view()};
     }
 
     void reserve(std::size_t pairCapacity) { nextIncoming_.resize(pairCapacity); }
