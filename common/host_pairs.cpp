@@ -31,7 +31,11 @@ std::vector<CellEntry> sortedCells(const Spheres& spheres) {
     float largest = 1e-6f;
     for (const float radius : spheres.radii) largest = std::max(largest, radius);
     const double cellSize = 2.0 * largest * (1.0 + 1e-6);
-    const auto along = [&](float c) { return std::llround(std::floor(c / cellSize)); };
+    // Clamped: what is 2^40 cells away has no neighbours that matter, and its number must fit.
+    constexpr double farthest = 0x1p40;
+    const auto along = [&](float c) {
+        return std::llround(std::clamp(std::floor(c / cellSize), -farthest, farthest));
+    };
     std::vector<CellEntry> cells;
     for (std::uint32_t k = 0; k < spheres.count(); ++k) {
         const Vec3 p = spheres.positions[k];

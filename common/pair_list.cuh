@@ -46,7 +46,9 @@ public:
         : pairs(device, capacity, "pairs"),
           starts(device, bodyCount + 1, "pairStarts"),
           counts(device, bodyCount, "pairCounts"),
-          remembered(device, bodyCount * rememberedPartners, "rememberedPartners") {}
+          remembered(device, bodyCount * rememberedPartners, "rememberedPartners") {
+        starts.fill(0);  // no pairs before the first search
+    }
 
     PairsView view() { return {pairs.view(), starts.view()}; }
 

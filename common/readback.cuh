@@ -21,9 +21,7 @@ public:
     View<T> view() { return onDevice_.view(); }
 
     /// Copies to the host after the launches so far.
-    void enqueueCopy() {
-        copyToPinned(onDevice_.device(), onHost_, onDevice_.data(), sizeof(T));
-    }
+    void enqueueCopy() { copyToPinned(onDevice_.device(), onHost_, onDevice_.data(), sizeof(T)); }
 
     /// What was copied, once the device has got there.
     const T& wait() const {

@@ -95,6 +95,13 @@ public:
     }
     RigidBodySystem(const RigidBodySystem&) = delete;
 
+    /// Which of the three copies hold something. Positions and velocities change in every stage,
+    /// restitutions and ids only when the bodies are reordered, so the two rotate apart.
+    struct Copies {
+        std::size_t moving = 0, fixed = 0;
+        bool operator==(const Copies&) const = default;
+    };
+
     BodyField<Vec3> positions, velocities;
     BodyField<float> radii, masses, restitutions;
     std::vector<Vec3> colors;  ///< for pictures only, so they stay on the host
@@ -127,16 +134,14 @@ public:
                 masses.download(),    restitutions.download(), colors};
     }
 
-    /// The body in each slot of the committed state.
-    std::vector<std::uint32_t> idsInMemoryOrder() { return fixed_[state_.fixed].ids.download(); }
+    /// The body in each slot of the committed state, or of the given copy.
+    std::vector<std::uint32_t> idsInMemoryOrder() { return idsInMemoryOrder(state_); }
+    std::vector<std::uint32_t> idsInMemoryOrder(Copies copies) {
+        return fixed_[copies.fixed].ids.download();
+    }
 
-    // For the engine: which of the three copies is which. Positions and velocities change in every
-    // stage, restitutions and ids only when the bodies are reordered, so the two rotate apart.
+    // For the engine: the copies.
 
-    struct Copies {
-        std::size_t moving = 0, fixed = 0;
-        bool operator==(const Copies&) const = default;
-    };
     static constexpr int copyCount = 3;
 
     Copies state() const { return state_; }

@@ -31,7 +31,7 @@ std::string faultOfRadius(float value) {
 }
 
 std::string faultOfMass(float value) {
-    if (std::isfinite(value) && value > 0.0f) return "";
+    if (std::isfinite(value) && value > 0.0f && std::isfinite(1.0f / value)) return "";
     return text("mass ", value, ": must be a finite number of kilograms above 0");
 }
 

@@ -186,3 +186,15 @@ TEST_CASE("each of the six walls holds a ball back") {
     CHECK(dot(atWall.velocities[0], direction) == -30.0f);
     CHECK(dot(atWall.velocities[0], tangential) == dot(tangential, tangential));
 }
+
+TEST_CASE("a ball beyond a wall that already comes back keeps its velocity") {
+    const Device device = GENERATE(from_range(test::devices()));
+    const Vec3 direction = GENERATE(Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0},
+                                    Vec3{0, 0, 1}, Vec3{0, 0, -1});
+    CAPTURE(direction);
+    Scene scene = test::emptyWorld();
+    scene.spheres.add(12.0f * direction, -3.0f * direction, radius, 1.0f, 0.5f);
+    const Spheres end = test::simulate(scene, test::settingsFor(scene, device), 1);
+    CHECK(end.positions[0] == (10.0f - radius) * direction);
+    CHECK(end.velocities[0] == -3.0f * direction);
+}

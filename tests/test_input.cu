@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -75,9 +76,11 @@ private:
     std::streambuf* before_;
 };
 
-CommandLine runWith(std::vector<std::string> words,
+/// `line` holds the arguments, separated by spaces.
+CommandLine runWith(const std::string& line,
                     const std::function<int(const Options&)>& run = nullptr) {
-    words.insert(words.begin(), "ballpit");
+    std::istringstream stream("ballpit " + line);
+    std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     CommandLine result{};
@@ -300,7 +303,7 @@ TEST_CASE("a GPU that is not there is refused with what would help") {
     SimulatorSettings settings = goodSettings();
     settings.device = Device::cuda;
     CHECK(contains(messageOfSettings(settings), "use --device cpu"));
-    const CommandLine line = runWith({"--device", "cuda"});
+    const CommandLine line = runWith("--device cuda");
     CHECK(line.exitCode == exitBadInput);
     CHECK(contains(line.errors, "error: --device cuda: "));
 }
@@ -422,8 +425,7 @@ TEST_CASE("a collision whose impulse overflows is named by its stage") {
 }
 
 TEST_CASE("the command line fills the options") {
-    const CommandLine line =
-        runWith({"--count", "42", "--seed=7", "--gravity", "-1.5", "--device", "cpu", "--json"});
+    const CommandLine line = runWith("--count 42 --seed=7 --gravity -1.5 --device cpu --json");
     CHECK(line.exitCode == exitOk);
     CHECK(line.ran);
     CHECK(line.options.count == 42);
@@ -431,22 +433,21 @@ TEST_CASE("the command line fills the options") {
     CHECK(line.options.gravity == -1.5f);
     CHECK(line.options.json);
     CHECK_FALSE(line.options.dt.has_value());
-    CHECK(runWith({}, [](const Options&) { return 7; }).exitCode == 7);
+    CHECK(runWith("", [](const Options&) { return 7; }).exitCode == 7);
 }
 
 TEST_CASE("--help ends well and runs nothing") {
-    const CommandLine line = runWith({"--help"});
+    const CommandLine line = runWith("--help");
     CHECK(line.exitCode == exitOk);
     CHECK_FALSE(line.ran);
     CHECK(contains(line.output, "--frames"));
 }
 
 TEST_CASE("an unknown option is answered with the nearest one") {
-    const std::vector<std::vector<std::string>> lines{
-        {"--frmaes", "3"}, {"--frmaes=3"}, {"--gravity", "-9.81", "--frmaes", "3"}};
-    for (const std::vector<std::string>& words : lines) {
+    for (const std::string words :
+         {"--frmaes 3", "--frmaes=3", "--count 3 --frmaes 3", "--gravity -9.81 --frmaes 3"}) {
         const CommandLine line = runWith(words);
-        CAPTURE(words, line.errors);
+        CAPTURE(words);
         CHECK(line.exitCode == exitBadInput);
         CHECK_FALSE(line.ran);
         CHECK(line.errors == "error: unknown option --frmaes: did you mean --frames?\n");
@@ -454,25 +455,11 @@ TEST_CASE("an unknown option is answered with the nearest one") {
 }
 
 TEST_CASE("bad values on the command line run nothing and end with exit code 2") {
-    const std::vector<std::vector<std::string>> lines{{"--count", "0"},
-                                                      {"--count", "-1"},
-                                                      {"--count", "many"},
-                                                      {"--count"},
-                                                      {"--frames", "0"},
-                                                      {"--iterations", "0"},
-                                                      {"--dt", "0"},
-                                                      {"--dt", "2"},
-                                                      {"--dt", "nan"},
-                                                      {"--gravity", "inf"},
-                                                      {"--restitution", "2"},
-                                                      {"--device", "tpu"},
-                                                      {"--save", "no/such/a"},
-                                                      {"--png", "no/such/b"},
-                                                      {"--out", "no/such/c"},
-                                                      {"--count", "2.5"},
-                                                      {"--count", "99999999999"},
-                                                      {"stray"}};
-    for (const std::vector<std::string>& words : lines) {
+    for (const std::string words :
+         {"--count", "--count 0", "--count -1", "--count many", "--count 2.5",
+          "--count 99999999999", "--frames 0", "--iterations 0", "--dt 0", "--dt 2", "--dt nan",
+          "--gravity inf", "--restitution 2", "--device tpu", "--save no/such/a", "--png no/such/b",
+          "--out no/such/c", "stray"}) {
         const CommandLine line = runWith(words);
         CAPTURE(words, line.errors);
         CHECK(line.exitCode == exitBadInput);
@@ -484,7 +471,7 @@ TEST_CASE("bad values on the command line run nothing and end with exit code 2")
 
 TEST_CASE("each kind of failure has its exit code and one line of its own") {
     const auto failing = [](auto error) {
-        return runWith({}, [=](const Options&) -> int { throw error; });
+        return runWith("", [=](const Options&) -> int { throw error; });
     };
     CHECK(failing(InputError("wrong")).exitCode == 2);
     CHECK(failing(NotFiniteError("blown up")).exitCode == 3);

@@ -57,11 +57,11 @@ public:
     /// Does all of a step's work, but keeps the state from before it. For measuring.
     StepStats rehearseStep() { return attemptUntilComplete(); }
 
-    /// The touching pairs of the last round of the last step, by body number: first < second,
-    /// sorted.
+    /// The touching pairs of the last round of the last step or rehearsal, by body number:
+    /// first < second, sorted.
     std::vector<Pair> lastPairs() {
         const std::uint32_t found = pairs_.starts.download().back();
-        const std::vector<std::uint32_t> ids = bodies_.idsInMemoryOrder();
+        const std::vector<std::uint32_t> ids = bodies_.idsInMemoryOrder(next_);
         std::vector<Pair> pairs = pairs_.pairs.download(found);
         for (Pair& pair : pairs) {
             const std::uint32_t a = ids[pair.first], b = ids[pair.second];
@@ -172,6 +172,7 @@ private:
         const auto start = std::chrono::steady_clock::now();
         requireBallsFit();
         StepStats stats;
+        const auto capacityBefore = static_cast<std::uint32_t>(pairs_.pairs.count());
         // With several rounds, balls move while the grid stays. If a ball of the largest radius
         // has no room to move at all, the grid must follow in any case.
         const bool noRoom = 2.0f * bodies_.largestRadius() >= settings_.cellSize;
@@ -180,8 +181,7 @@ private:
             const StepStatus status = attempt(rebuild);
             requireCountable(status);
             if (status.pairsNeeded > pairs_.pairs.count()) {
-                stats.overflow =
-                    status.pairsNeeded - static_cast<std::uint32_t>(pairs_.pairs.count());
+                stats.overflow = status.pairsNeeded - capacityBefore;
                 growPairList(status.pairsNeeded);
                 continue;
             }
@@ -203,7 +203,7 @@ private:
         return stats;
     }
 
-    void growPairList(std::uint32_t needed) {
+    void growPairList(std::size_t needed) {
         if (!settings_.growPairs)
             throw std::runtime_error("pair list full: " + std::to_string(needed) +
                                      " pairs needed, " + std::to_string(pairs_.pairs.count()) +
