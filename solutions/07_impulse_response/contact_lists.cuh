@@ -29,26 +29,20 @@ HD inline void linkIncoming(std::uint32_t k, const ContactsView& contacts) {
     contacts.nextIncoming[k] = exchange(contacts.firstIncoming[partner], k);
 }
 
-/// Takes body i's string and hangs it up again in rising order of the pair numbers: insertion sort,
-/// since a string is a handful of pairs. Returns its first pair. Only body i's own links are
-/// touched.
-HD inline std::uint32_t sortedIncoming(int i, const ContactsView& contacts) {
-    const View<std::uint32_t> next = contacts.nextIncoming;
-    std::uint32_t sorted = noPair;
-    for (std::uint32_t pair = contacts.firstIncoming[i]; pair != noPair;) {
-        const std::uint32_t rest = next[pair];
-        if (pair < sorted) {
-            next[pair] = sorted;
-            sorted = pair;
-        } else {
-            std::uint32_t before = sorted;
-            while (next[before] < pair) before = next[before];
-            next[pair] = next[before];
-            next[before] = pair;
-        }
+/// Insertion sort of body i's string by pair number: takes it apart, and hangs each pair where the
+/// numbers before it are smaller. Only body i's own links are touched.
+HD inline void sortIncoming(int i, const ContactsView& contacts) {
+    std::uint32_t pair = contacts.firstIncoming[i];
+    std::uint32_t first = noPair;
+    while (pair != noPair) {
+        const std::uint32_t rest = contacts.nextIncoming[pair];
+        std::uint32_t* link = &first;
+        while (*link < pair) link = &contacts.nextIncoming[*link];
+        contacts.nextIncoming[pair] = *link;
+        *link = pair;
         pair = rest;
     }
-    return sorted;
+    contacts.firstIncoming[i] = first;
 }
 
 /// Calls visit(pair number, sign) for each contact of body i, in rising order of the partner's
@@ -57,7 +51,7 @@ HD inline std::uint32_t sortedIncoming(int i, const ContactsView& contacts) {
 template <class Visit>
 HD void visitContacts(int i, const ContactsView& contacts, Visit visit) {
     // Pair numbers rise with their first body, so a sorted string gives partners in order.
-    for (std::uint32_t k = sortedIncoming(i, contacts); k != noPair; k = contacts.nextIncoming[k])
+    for (std::uint32_t k = contacts.firstIncoming[i]; k != noPair; k = contacts.nextIncoming[k])
         visit(k, 1.0f);
     for (std::uint32_t k = contacts.pairs.starts[i]; k < contacts.pairs.endOf(i); ++k)
         visit(k, -1.0f);

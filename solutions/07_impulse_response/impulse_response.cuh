@@ -87,6 +87,7 @@ HD inline void computePairImpulse(int thread, BodiesView bodies, ImpulseView vie
 /// Adds up what all contacts do to body i, and writes its new velocity and position to `to`. Also
 /// empties its string and its counts for the next round.
 HD inline void collisionResponse(int i, ResponseRound round, ImpulseView view) {
+    sortIncoming(i, view.contacts);
     const Vec4 sphere = round.from.positions[i], moving = round.from.velocities[i];
     const float inverseMass = moving.w;
     Vec3 velocityChange, positionChange;
@@ -95,10 +96,8 @@ HD inline void collisionResponse(int i, ResponseRound round, ImpulseView view) {
         velocityChange += (sign * (pair.w * inverseMass)) * xyz(pair);
         positionChange += (sign * (view.pushes[k] * inverseMass)) * xyz(pair);
     });
-    if (view.counts[i].packed != 0) {
-        view.contacts.firstIncoming[i] = noPair;
-        view.counts[i] = ContactCounts{};
-    }
+    view.contacts.firstIncoming[i] = noPair;
+    view.counts[i] = ContactCounts{};
 
     const Vec3 position = xyz(sphere) + positionChange, velocity = xyz(moving) + velocityChange;
     round.to.positions[i] = withW(position, sphere.w);

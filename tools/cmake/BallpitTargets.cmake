@@ -14,6 +14,8 @@ if(BALLPIT_EXACT)
     target_compile_options(exact_math INTERFACE
         $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>
         "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:--fmad=false -Xcompiler=-ffp-contract=off>")
+else()
+    target_compile_definitions(exact_math INTERFACE BALLPIT_INEXACT)
 endif()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     # floorf and friends as one instruction: any processor since 2009. No FMA in this set.
