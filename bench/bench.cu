@@ -24,18 +24,15 @@ int main(int argc, char** argv) {
     app.add_option("--csv", plan.csv, "file to write the table to as well");
     try {
         app.parse(argc, argv);
-        plan.device = device == "cuda" ? Device::cuda : Device::cpu;
-        runBench(plan);
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
         std::cerr << "error: " << error.what() << " (--help shows the options)\n";
         return exitBadInput;
-    } catch (const InputError& error) {
-        std::cerr << "error: " << error.what() << '\n';
-        return exitBadInput;
-    } catch (const std::exception& error) {
-        std::cerr << "error: " << error.what() << '\n';
-        return exitFailed;
     }
+    plan.device = device == "cuda" ? Device::cuda : Device::cpu;
+    return reportingErrors([&] {
+        runBench(plan);
+        return int(exitOk);
+    });
 }

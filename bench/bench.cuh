@@ -169,21 +169,9 @@ inline SearchRow timeSearch(const Scene& scene, const BenchPlan& plan, const std
             median(ratios)};
 }
 
-inline SimulatorSettings settingsFor(const Scene& scene, Device device, bool timeStages) {
-    SimulatorSettings settings;
-    settings.objects = static_cast<int>(scene.spheres.count());
-    settings.bounds = scene.bounds;
-    settings.cellSize = scene.cellSize;
-    settings.device = device;
-    settings.gravity = scene.gravity;
-    settings.damping = scene.damping;
-    settings.timeStages = timeStages;
-    return settings;
-}
-
 /// The scene as it is after a few steps: overlaps of the start resolved, a gas mixed.
 inline Scene settled(Scene scene, Device device, int steps) {
-    PhysicsSimulator simulator(settingsFor(scene, device, false));
+    PhysicsSimulator simulator(settingsFor(scene, device));
     simulator.bodies().upload(scene.spheres);
     for (int k = 0; k < steps; ++k) simulator.step();
     scene.spheres = simulator.bodies().download();
@@ -194,7 +182,7 @@ inline Scene settled(Scene scene, Device device, int steps) {
 inline StepRow timeSteps(const Scene& scene, const BenchPlan& plan, double bandwidth) {
     StepRow row{.scene = scene.name, .balls = scene.spheres.count()};
     {
-        PhysicsSimulator simulator(settingsFor(scene, plan.device, false));
+        PhysicsSimulator simulator(settingsFor(scene, plan.device));
         simulator.bodies().upload(scene.spheres);
         for (int k = 0; k < 3; ++k) simulator.rehearseStep();
         std::vector<double> times;
@@ -202,7 +190,9 @@ inline StepRow timeSteps(const Scene& scene, const BenchPlan& plan, double bandw
             times.push_back(simulator.rehearseStep().frameTimeMs);
         row.stepMs = median(times);
     }
-    PhysicsSimulator simulator(settingsFor(scene, plan.device, true));
+    SimulatorSettings timed = settingsFor(scene, plan.device);
+    timed.timeStages = true;
+    PhysicsSimulator simulator(timed);
     simulator.bodies().upload(scene.spheres);
     simulator.rehearseStep();
     std::vector<std::vector<double>> stageTimes;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/device.h"
+
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -19,20 +21,12 @@ int threadNumber() {
 #endif
 }
 
-int threadCount() {
-#ifdef _OPENMP
-    return omp_get_max_threads();
-#else
-    return 1;
-#endif
-}
-
 }  // namespace
 
 PlainGrid::PlainGrid(Bounds bounds, float cellSize)
     : bounds_(bounds),
       inverseCellSize_(1.0f / cellSize),
-      pairs_(static_cast<std::size_t>(threadCount())) {
+      pairs_(static_cast<std::size_t>(cpuThreadCount())) {
     const Vec3 cells = inverseCellSize_ * extent(bounds);
     resolution_ = {static_cast<int>(cells.x) + 1, static_cast<int>(cells.y) + 1,
                    static_cast<int>(cells.z) + 1};

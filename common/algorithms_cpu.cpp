@@ -9,10 +9,6 @@
 
 #include "common/device.h"
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 namespace ballpit::cpu {
 
 namespace {
@@ -20,13 +16,7 @@ namespace {
 /// 2^11 counters fit the first-level cache, and 22 bits of cell hash take two passes.
 constexpr int maxDigitBits = 11;
 
-int chunkCountFor(int count) {
-#ifdef _OPENMP
-    if (count >= serialCount) return omp_get_max_threads();
-#endif
-    (void)count;
-    return 1;
-}
+int chunkCountFor(int count) { return count >= serialCount ? cpuThreadCount() : 1; }
 
 struct Chunk {
     int begin, end;

@@ -51,15 +51,15 @@ std::string cpuModel() {
     return "CPU";
 }
 
-int cpuThreads() {
+}  // namespace
+
+int cpuThreadCount() {
 #ifdef _OPENMP
     return omp_get_max_threads();
 #else
     return 1;
 #endif
 }
-
-}  // namespace
 
 Device defaultDevice() { return cudaUsable() ? Device::cuda : Device::cpu; }
 
@@ -126,7 +126,7 @@ std::string describe(Device device) {
     }
 #endif
     (void)device;
-    return cpuModel() + ", " + std::to_string(cpuThreads()) + " threads";
+    return cpuModel() + ", " + std::to_string(cpuThreadCount()) + " threads";
 }
 
 std::size_t freeMemory(Device device) {

@@ -27,6 +27,9 @@ const char* name(Device device);
 /// The machine's own name: the GPU's model, or the CPU with its thread count.
 std::string describe(Device device);
 
+/// Threads that the CPU's loops run on.
+int cpuThreadCount();
+
 /// Bytes that can still be allocated on the device.
 std::size_t freeMemory(Device device);
 

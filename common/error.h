@@ -1,6 +1,7 @@
 // What can go wrong, and the exit code each kind of failure has in every executable.
 #pragma once
 
+#include <iostream>
 #include <stdexcept>
 #include <string>
 
@@ -19,5 +20,23 @@ struct InputError : std::runtime_error {
 struct NotFiniteError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+
+/// Calls `run`, which returns an exit code; an exception becomes one line on stderr and its code.
+template <class Run>
+int reportingErrors(Run run) {
+    const auto report = [](const std::exception& error, int code) {
+        std::cerr << "error: " << error.what() << '\n';
+        return code;
+    };
+    try {
+        return run();
+    } catch (const InputError& error) {
+        return report(error, exitBadInput);
+    } catch (const NotFiniteError& error) {
+        return report(error, exitNotFinite);
+    } catch (const std::exception& error) {
+        return report(error, exitFailed);
+    }
+}
 
 }  // namespace ballpit

@@ -127,19 +127,10 @@ int runMain(int argc, char** argv, const std::string& purpose, Options options,
     options.device = device.empty()     ? defaultDevice()
                      : device == "cuda" ? Device::cuda
                                         : Device::cpu;
-    try {
+    return reportingErrors([&] {
         requireInRange(options);
         return run(options);
-    } catch (const InputError& error) {
-        std::cerr << "error: " << error.what() << '\n';
-        return exitBadInput;
-    } catch (const NotFiniteError& error) {
-        std::cerr << "error: " << error.what() << '\n';
-        return exitNotFinite;
-    } catch (const std::exception& error) {
-        std::cerr << "error: " << error.what() << '\n';
-        return exitFailed;
-    }
+    });
 }
 
 }  // namespace ballpit

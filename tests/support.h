@@ -81,18 +81,7 @@ inline std::vector<std::uint32_t> bitsOf(const std::vector<float>& values) {
     return bits;
 }
 
-/// Settings for a scene on a device; the caller changes what it wants.
-inline SimulatorSettings settingsFor(const Scene& scene, Device device) {
-    SimulatorSettings settings;
-    settings.objects = static_cast<int>(scene.spheres.count());
-    settings.bounds = scene.bounds;
-    settings.cellSize = scene.cellSize;
-    settings.device = device;
-    settings.dt = scene.dt;
-    settings.gravity = scene.gravity;
-    settings.damping = scene.damping;
-    return settings;
-}
+using ballpit::settingsFor;
 
 /// An empty world for a handful of balls: 20 m a side around the origin, no gravity, no damping.
 inline Scene emptyWorld(float cellSize = 2.0f) {

@@ -38,14 +38,6 @@ void setThreads(int count) {
 #endif
 }
 
-int threads() {
-#ifdef _OPENMP
-    return omp_get_max_threads();
-#else
-    return 1;
-#endif
-}
-
 }  // namespace
 
 TEST_CASE("three scenes end with their golden hashes on every device", "[exactness]") {
@@ -65,7 +57,7 @@ TEST_CASE("two runs give the same bits", "[exactness]") {
 TEST_CASE("one, two and three threads give the same bits", "[exactness]") {
     const Golden run = GENERATE(from_range(goldenRuns()));
     CAPTURE(run.scene);
-    const int before = threads();
+    const int before = cpuThreadCount();
     setThreads(1);
     const std::string one = hashAfter(run, Device::cpu, 30);
     for (const int count : {2, 3}) {

@@ -9,19 +9,6 @@
 
 namespace ballpit {
 
-inline SimulatorSettings settingsFor(const Scene& scene, const Options& options) {
-    SimulatorSettings settings;
-    settings.objects = static_cast<int>(scene.spheres.count());
-    settings.bounds = scene.bounds;
-    settings.cellSize = scene.cellSize;
-    settings.device = options.device;
-    settings.dt = scene.dt;
-    settings.gravity = scene.gravity;
-    settings.damping = scene.damping;
-    settings.iterations = options.iterations;
-    return settings;
-}
-
 /// Steps and films until the frames are done or the user stops it; fills in what was counted.
 inline void runFrames(PhysicsSimulator& simulator, Film& film, Summary& summary) {
     RigidBodySystem& bodies = simulator.bodies();
@@ -47,7 +34,9 @@ inline void runFrames(PhysicsSimulator& simulator, Film& film, Summary& summary)
 /// finite, the last good state is saved before NotFiniteError goes on.
 inline Summary runScene(const Options& options) {
     const Scene scene = sceneFor(options);
-    PhysicsSimulator simulator(settingsFor(scene, options));
+    SimulatorSettings settings = settingsFor(scene, options.device);
+    settings.iterations = options.iterations;
+    PhysicsSimulator simulator(settings);
     simulator.bodies().upload(scene.spheres);
     Film film(options, scene.bounds);
 

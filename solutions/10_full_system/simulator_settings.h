@@ -6,6 +6,7 @@
 
 #include "common/device.h"
 #include "common/error.h"
+#include "common/scene.h"
 #include "common/vec3.cuh"
 
 namespace ballpit {
@@ -33,6 +34,19 @@ struct SimulatorSettings {
         return pairCapacity ? pairCapacity : 4 * static_cast<std::size_t>(objects);
     }
 };
+
+/// The settings that a scene's world asks for.
+inline SimulatorSettings settingsFor(const Scene& scene, Device device) {
+    SimulatorSettings settings;
+    settings.objects = static_cast<int>(scene.spheres.count());
+    settings.bounds = scene.bounds;
+    settings.cellSize = scene.cellSize;
+    settings.device = device;
+    settings.dt = scene.dt;
+    settings.gravity = scene.gravity;
+    settings.damping = scene.damping;
+    return settings;
+}
 
 /// InputError naming the first setting that makes no sense.
 inline void requireSensible(const SimulatorSettings& s) {
