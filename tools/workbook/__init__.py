@@ -1,0 +1,1 @@
+"""What ./ballpit does for students and authors. Python's standard library only."""
