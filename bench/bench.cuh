@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -12,6 +11,7 @@
 #include "bench/plain_grid.h"
 #include "bench/report.h"
 #include "common/scene.h"
+#include "common/timing.h"
 
 namespace ballpit {
 
@@ -22,16 +22,6 @@ struct BenchPlan {
     int repeats = 15;
     std::string csv;
 };
-
-inline double milliseconds() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double, std::milli>(now).count();
-}
-
-inline double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 /// Bytes a second that a large copy within the device's memory moves, read and written.
 inline double copyBandwidth(Device device) {

@@ -11,7 +11,7 @@ namespace ballpit {
 /// Everything runs on this stream: unlike the legacy default stream it can be captured in a graph.
 inline const cudaStream_t cudaStream = cudaStreamPerThread;
 
-/// Throws std::runtime_error unless `code` is cudaSuccess. `call` is the call as written.
+/// Throws CudaError unless `code` is cudaSuccess. `call` is the call as written.
 void checkCuda(cudaError_t code, const char* call,
                std::source_location place = std::source_location::current());
 

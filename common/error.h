@@ -21,6 +21,11 @@ struct NotFiniteError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A CUDA call or kernel failed.
+struct CudaError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Calls `run`, which returns an exit code; an exception becomes one line on stderr and its code.
 template <class Run>
 int reportingErrors(Run run) {

@@ -72,17 +72,33 @@ Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt) {
     return m;
 }
 
-std::uint64_t stateHash(const Spheres& spheres) {
+namespace {
+
+/// Mixes words one after the other: Fibonacci hashing's multiplier, folded after each.
+struct Mixer {
     std::uint64_t hash = 0xCBF29CE484222325u;
-    const auto mix = [&](float value) {
-        hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15u;
+    void add(std::uint32_t word) {
+        hash = (hash ^ word) * 0x9E3779B97F4A7C15u;
         hash ^= hash >> 32;
-    };
+    }
+};
+
+}  // namespace
+
+std::uint64_t stateHash(const Spheres& spheres) {
+    Mixer mixer;
     for (std::size_t k = 0; k < spheres.count(); ++k) {
         for (const Vec3 v : {spheres.positions[k], spheres.velocities[k]})
-            mix(v.x), mix(v.y), mix(v.z);
+            for (const float value : {v.x, v.y, v.z})
+                mixer.add(std::bit_cast<std::uint32_t>(value));
     }
-    return hash;
+    return mixer.hash;
+}
+
+std::uint64_t wordHash(std::span<const std::uint32_t> words) {
+    Mixer mixer;
+    for (const std::uint32_t word : words) mixer.add(word);
+    return mixer.hash;
 }
 
 std::string hashText(std::uint64_t hash) {

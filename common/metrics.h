@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "common/spheres.h"
@@ -36,6 +37,9 @@ Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt);
 /// 64 bits over the positions and velocities in body order: equal states, and hardly any others,
 /// have equal hashes.
 std::uint64_t stateHash(const Spheres& spheres);
+
+/// The same for a list of words: keys, slots, pairs.
+std::uint64_t wordHash(std::span<const std::uint32_t> words);
 
 /// The hash as its 16 digits.
 std::string hashText(std::uint64_t hash);

@@ -14,14 +14,22 @@ namespace ballpit {
 
 namespace {
 
-void addOptions(CLI::App& app, Options& o, std::string& device) {
-    app.add_option("--scene", o.scene, "gravity_fall, uniform, gas or pile")->capture_default_str();
+void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
     app.add_option("--device", device,
                    "cuda or cpu: the same bits on both; by default the GPU "
                    "where there is one")
         ->check(CLI::IsMember({"cuda", "cpu"}));
     app.add_option("--count", o.count, "number of balls")->capture_default_str();
     app.add_option("--seed", o.seed, "seed of the scene")->capture_default_str();
+    app.add_option("--out", o.out, "video to write (.mp4, .mkv, .mov or .avi)");
+    app.add_option("--png", o.png, "picture of the last frame to write");
+    app.add_option("--width", o.width, "pixels of a frame, even")->capture_default_str();
+    app.add_option("--height", o.height, "pixels of a frame, even")->capture_default_str();
+    app.add_flag("--json", o.json, "print what was found as JSON");
+}
+
+void addSimulationOptions(CLI::App& app, Options& o) {
+    app.add_option("--scene", o.scene, "gravity_fall, uniform, gas or pile")->capture_default_str();
     app.add_option("--frames", o.frames, "steps to simulate, one video frame each")
         ->capture_default_str();
     app.add_option("--iterations", o.iterations, "detect and resolve rounds a step")
@@ -31,11 +39,13 @@ void addOptions(CLI::App& app, Options& o, std::string& device) {
     app.add_option("--damping", o.damping, "share of its velocity a ball loses a second");
     app.add_option("--restitution", o.restitution, "for all balls: 0 dead stop, 1 elastic");
     app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
-    app.add_option("--out", o.out, "video to write (.mp4, .mkv, .mov or .avi)");
-    app.add_option("--png", o.png, "picture of the last frame to write");
     app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
     app.add_option("--save", o.saveFile, "CSV to write the final balls to");
-    app.add_flag("--json", o.json, "print the summary as JSON");
+}
+
+void addChapterOptions(CLI::App& app, Options& o) {
+    app.add_option("--frames", o.frames, "frames of the video")->capture_default_str();
+    app.add_flag("--time", o.time, "measure the piece's speed as well");
 }
 
 /// How many letters must be changed, added or removed to turn a into b.
@@ -82,6 +92,9 @@ void requireInRange(const Options& o) {
     require(o.count >= 1, "--count " + std::to_string(o.count) + ": at least 1 ball");
     require(o.frames >= 1, "--frames " + std::to_string(o.frames) + ": at least 1");
     require(o.iterations >= 1, "--iterations " + std::to_string(o.iterations) + ": at least 1");
+    for (const int size : {o.width, o.height})
+        require(size >= 16 && size <= 8192 && size % 2 == 0,
+                "frame size " + std::to_string(size) + ": an even number from 16 to 8192");
     if (o.dt)
         require(*o.dt > 0 && *o.dt <= 1,
                 "--dt " + std::to_string(*o.dt) + ": must be above 0, at most 1 s");
@@ -111,11 +124,11 @@ Scene sceneFor(const Options& o) {
     return scene;
 }
 
-int runMain(int argc, char** argv, const std::string& purpose, Options options,
-            const std::function<int(const Options&)>& run) {
-    CLI::App app{purpose};
-    std::string device;
-    addOptions(app, options, device);
+namespace {
+
+int parseAndRun(CLI::App& app, int argc, char** argv, Options& options, std::string& device,
+                const std::function<int(const Options&)>& run) {
+    addSharedOptions(app, options, device);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {
@@ -131,6 +144,24 @@ int runMain(int argc, char** argv, const std::string& purpose, Options options,
         requireInRange(options);
         return run(options);
     });
+}
+
+}  // namespace
+
+int runMain(int argc, char** argv, const std::string& purpose, Options options,
+            const std::function<int(const Options&)>& run) {
+    CLI::App app{purpose};
+    std::string device;
+    addSimulationOptions(app, options);
+    return parseAndRun(app, argc, argv, options, device, run);
+}
+
+int runChapter(int argc, char** argv, const std::string& purpose, Options options,
+               const std::function<int(const Options&)>& run) {
+    CLI::App app{purpose};
+    std::string device;
+    addChapterOptions(app, options);
+    return parseAndRun(app, argc, argv, options, device, run);
 }
 
 }  // namespace ballpit

@@ -20,11 +20,13 @@ struct Options {
     int frames = 600;
     int iterations = 2;
     std::optional<float> dt, gravity, damping, restitution, cellSize;
-    std::string out;          ///< video to write; empty: none
-    std::string png;          ///< picture of the last frame; empty: none
-    std::string spheresFile;  ///< CSV to start from instead of the scene's bodies
-    std::string saveFile;     ///< CSV to write at the end
-    bool json = false;        ///< the summary as JSON
+    std::string out;                  ///< video to write; empty: none
+    std::string png;                  ///< picture of the last frame; empty: none
+    std::string spheresFile;          ///< CSV to start from instead of the scene's bodies
+    std::string saveFile;             ///< CSV to write at the end
+    int width = 1920, height = 1080;  ///< of frames, pixels
+    bool json = false;                ///< the summary as JSON
+    bool time = false;                ///< measure speed (chapters)
 };
 
 /// The scene that the options describe: made by name or read from the CSV, then changed by the
@@ -35,5 +37,10 @@ Scene sceneFor(const Options& options);
 /// calls `run`, and turns errors into one line on stderr and an exit code (common/error.h).
 int runMain(int argc, char** argv, const std::string& purpose, Options defaults,
             const std::function<int(const Options&)>& run);
+
+/// The same for the executable of a chapter on one piece: it knows only the options that make
+/// sense there (device, count, seed, picture, video, JSON, --time).
+int runChapter(int argc, char** argv, const std::string& purpose, Options defaults,
+               const std::function<int(const Options&)>& run);
 
 }  // namespace ballpit

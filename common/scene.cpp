@@ -61,14 +61,6 @@ private:
     std::unordered_map<std::uint64_t, std::vector<Vec4>> cells_;
 };
 
-/// Bright, well-told-apart colours in turn.
-Vec3 paletteColor(std::size_t k) {
-    static constexpr Vec3 palette[] = {
-        {0.90f, 0.30f, 0.24f}, {0.95f, 0.61f, 0.07f}, {0.95f, 0.80f, 0.25f}, {0.25f, 0.72f, 0.45f},
-        {0.15f, 0.68f, 0.70f}, {0.24f, 0.52f, 0.86f}, {0.58f, 0.40f, 0.80f}, {0.88f, 0.45f, 0.65f}};
-    return palette[k % std::size(palette)];
-}
-
 /// Balls along each edge of the smallest cube that holds `count`.
 int cubeSide(int count) { return static_cast<int>(std::ceil(std::cbrt(double(count)) - 1e-9)); }
 

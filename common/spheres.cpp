@@ -40,4 +40,11 @@ std::string faultOfRestitution(float value) {
     return text("restitution ", value, ": must lie between 0 (dead stop) and 1 (elastic)");
 }
 
+Vec3 paletteColor(std::size_t k) {
+    static constexpr Vec3 palette[] = {
+        {0.90f, 0.30f, 0.24f}, {0.95f, 0.61f, 0.07f}, {0.95f, 0.80f, 0.25f}, {0.25f, 0.72f, 0.45f},
+        {0.15f, 0.68f, 0.70f}, {0.24f, 0.52f, 0.86f}, {0.58f, 0.40f, 0.80f}, {0.88f, 0.45f, 0.65f}};
+    return palette[k % std::size(palette)];
+}
+
 }  // namespace ballpit

@@ -29,6 +29,9 @@ struct Spheres {
     }
 };
 
+/// The k-th of eight bright colours that are easily told apart, in turn.
+Vec3 paletteColor(std::size_t k);
+
 /// Empty if body values are usable, else what is wrong with value k: "radius -0.5: ...".
 std::string faultOfPosition(Vec3 value);
 std::string faultOfVelocity(Vec3 value);

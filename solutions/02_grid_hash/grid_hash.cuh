@@ -5,6 +5,7 @@
 
 #include "common/atomics.cuh"
 #include "common/bodies.cuh"
+//@starter #include "common/hole.cuh"
 #include "common/uniform_grid.cuh"
 
 namespace ballpit {
@@ -12,10 +13,14 @@ namespace ballpit {
 /// Which cell along one axis? -1 below the grid, `resolution` above it (or NaN: -1).
 /// `coordinate` and `origin` in m. floorf, not a cast: a cast rounds -0.5 up into the grid.
 HD inline int cellAlongAxis(float coordinate, float origin, float inverseCellSize, int resolution) {
+    //@hole hash.axis lines=3 "Which cell along one axis? -1 below the grid, resolution above it"
+    //@starter TODO_HOLE("hash.axis");
+    //@starter return 0;
     const float cell = floorf((coordinate - origin) * inverseCellSize);
     const float below = -1.0f, above = static_cast<float>(resolution);
     // Clamped while still a float: converting a float that no int can hold is undefined.
     return static_cast<int>(cell > below ? minimum(cell, above) : below);
+    //@end
 }
 
 /// The cell of a position; one step outside the grid for positions outside of it.
@@ -25,7 +30,14 @@ HD inline Int3 cellOf(const GridView& grid, Vec3 position) {
             cellAlongAxis(position.z, grid.origin.z, grid.inverseCellSize, grid.resolution.z)};
 }
 
-HD inline int clampIndex(int i, int count) { return i < 0 ? 0 : i < count ? i : count - 1; }
+/// The nearest of the indices 0 to count - 1.
+HD inline int clampIndex(int i, int count) {
+    //@hole hash.clamp lines=1 "The nearest index that exists"
+    //@starter TODO_HOLE("hash.clamp");
+    //@starter return 0;
+    return i < 0 ? 0 : i < count ? i : count - 1;
+    //@end
+}
 
 /// The nearest cell of the grid. Clamping never moves two cells apart, so bodies outside the world
 /// still meet all their neighbours.
@@ -38,16 +50,24 @@ HD inline bool isSameCell(Int3 a, Int3 b) { return a.x == b.x && a.y == b.y && a
 
 /// 1-D number of a cell inside the grid: x runs fastest, so the cells of a row are neighbours.
 HD inline std::uint32_t cellHash(Int3 resolution, Int3 cell) {
+    //@hole hash.number lines=1 "From cell coordinates to one number: x runs fastest, z slowest"
+    //@starter TODO_HOLE("hash.number");
+    //@starter return 0;
     return static_cast<std::uint32_t>((cell.z * resolution.y + cell.y) * resolution.x + cell.x);
+    //@end
 }
 
 /// The inverse of cellHash.
 HD inline Int3 cellFromHash(Int3 resolution, std::uint32_t hash) {
+    //@hole hash.inverse lines=4 "Back from the number to the cell, with / and %"
+    //@starter TODO_HOLE("hash.inverse");
+    //@starter return {0, 0, 0};
     const auto rowLength = static_cast<std::uint32_t>(resolution.x);
     const auto rowCount = static_cast<std::uint32_t>(resolution.y);
     const std::uint32_t row = hash / rowLength;
     return {static_cast<int>(hash % rowLength), static_cast<int>(row % rowCount),
             static_cast<int>(row / rowCount)};
+    //@end
 }
 
 /// Which cell is body i in? Writes the cell's hash and the body's own slot, which the sort will
@@ -55,11 +75,14 @@ HD inline Int3 cellFromHash(Int3 resolution, std::uint32_t hash) {
 HD inline void computeGridHash(int i, GridView grid, View<const Vec4> positions,
                                View<std::uint32_t> hashes, View<std::uint32_t> indices,
                                View<StepStatus> status) {
+    //@hole hash.write lines=5 "Hash body i, write hash and slot, count it if it is outside"
+    //@starter TODO_HOLE("hash.write");
     const Int3 cell = cellOf(grid, xyz(positions[i]));
     const Int3 clamped = clampToGrid(grid, cell);
     if (!isSameCell(cell, clamped)) fetchAdd(status[0].outside, 1);
     hashes[i] = cellHash(grid.resolution, clamped);
     indices[i] = static_cast<std::uint32_t>(i);
+    //@end
 }
 
 }  // namespace ballpit

@@ -1,9 +1,9 @@
 // Chapter 10: a run from scene to summary.
 #pragma once
 
-#include "10_full_system/film.h"
 #include "10_full_system/physics_simulator.cuh"
 #include "common/csv.h"
+#include "common/film.h"
 #include "common/progress.h"
 #include "common/summary.h"
 

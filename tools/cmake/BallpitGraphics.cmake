@@ -19,25 +19,31 @@ endif()
 
 if(BALLPIT_WITH_GRAPHICS)
     message(STATUS "Graphics: yes")
+    add_library(ballpit_frame STATIC common/frame.cpp)
+    target_link_libraries(ballpit_frame PUBLIC PkgConfig::FFMPEG)
     add_library(ballpit_graphics STATIC
         common/camera.cpp
-        common/frame.cpp
         common/offscreen_context.cpp
         solutions/08_sphere_rendering/sphere_renderer.cpp
         solutions/09_video_recording/video_recorder.cpp)
     ballpit_target(ballpit_graphics)
     target_link_libraries(ballpit_graphics
-        PUBLIC ballpit_common OpenGL::OpenGL OpenGL::EGL GLEW::GLEW PkgConfig::FFMPEG)
+        PUBLIC ballpit_common ballpit_frame OpenGL::OpenGL OpenGL::EGL GLEW::GLEW)
 else()
+    add_library(ballpit_frame STATIC common/frame_without_graphics.cpp)
     message(STATUS "Graphics: no (physics, tests of physics and the bench are built)")
 endif()
 
+# Picture files do not depend on anything else of ours.
+ballpit_target(ballpit_frame)
+
 # The film is there in every build; without graphics it refuses to record.
+add_library(ballpit_film STATIC common/show_spheres.cpp)
 if(BALLPIT_WITH_GRAPHICS)
-    add_library(ballpit_film STATIC solutions/10_full_system/film.cpp)
+    target_sources(ballpit_film PRIVATE common/film.cpp)
     target_link_libraries(ballpit_film PUBLIC ballpit_graphics)
 else()
-    add_library(ballpit_film STATIC solutions/10_full_system/film_without_graphics.cpp)
+    target_sources(ballpit_film PRIVATE common/film_without_graphics.cpp)
 endif()
 ballpit_target(ballpit_film)
 target_link_libraries(ballpit_film PUBLIC ballpit_common)

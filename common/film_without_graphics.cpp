@@ -1,5 +1,5 @@
 // The film of a build without graphics: refuses politely.
-#include "10_full_system/film.h"
+#include "common/film.h"
 
 #include "common/error.h"
 
@@ -17,6 +17,7 @@ Film::Film(const Options& options, Bounds) {
 
 Film::~Film() = default;
 void Film::capture(const std::vector<Vec3>&, const std::vector<float>&, const std::vector<Vec3>&) {}
+void Film::walkAround(float) {}
 void Film::finish() {}
 
 }  // namespace ballpit

@@ -1,6 +1,7 @@
 // The film of a build with graphics.
-#include "10_full_system/film.h"
+#include "common/film.h"
 
+#include <cmath>
 #include <iostream>
 #include <optional>
 
@@ -12,15 +13,15 @@ namespace ballpit {
 
 namespace {
 
-constexpr int frameWidth = 1920, frameHeight = 1080, framesPerSecond = 60;
+constexpr int framesPerSecond = 60;
 
 }  // namespace
 
 struct Film::Crew {
     Crew(const Options& options, Bounds world)
-        : renderer(world, frameWidth, frameHeight), png(options.png) {
+        : renderer(world, options.width, options.height), png(options.png) {
         if (!options.out.empty()) {
-            recorder.emplace(options.out, frameWidth, frameHeight, framesPerSecond);
+            recorder.emplace(options.out, options.width, options.height, framesPerSecond);
             if (!recorder->notice().empty()) std::cerr << "note: " << recorder->notice() << '\n';
         }
     }
@@ -44,6 +45,14 @@ void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>&
     crew_->renderer.draw(positions, radii, colors);
     crew_->last = crew_->renderer.read();
     if (crew_->recorder) crew_->recorder->captureFrame(crew_->last);
+}
+
+void Film::walkAround(float degrees) {
+    Camera& camera = crew_->renderer.camera;
+    const float angle = degrees * 3.14159265f / 180.0f;
+    const Vec3 arm = camera.eye - camera.target;
+    camera.eye = camera.target + Vec3{std::cos(angle) * arm.x + std::sin(angle) * arm.z, arm.y,
+                                      std::cos(angle) * arm.z - std::sin(angle) * arm.x};
 }
 
 void Film::finish() {

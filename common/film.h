@@ -1,10 +1,11 @@
-// Chapter 10: the camera crew of a run: draws every frame that is wanted and records it.
+// The camera crew of an executable: draws every frame that is wanted and records it.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "common/options.h"
+#include "common/spheres.h"
 
 namespace ballpit {
 
@@ -23,6 +24,9 @@ public:
     void capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
                  const std::vector<Vec3>& colors);
 
+    /// Walks the camera around the world's middle axis, by `degrees` from where it stands.
+    void walkAround(float degrees);
+
     /// Completes the video, and writes the last picture where --png asked for it.
     void finish();
 
@@ -30,5 +34,9 @@ private:
     struct Crew;
     std::unique_ptr<Crew> crew_;
 };
+
+/// Shows bodies that do not move: the picture that --png asks for, and for --out a walk around
+/// them, --frames long.
+void showSpheres(const Options& options, Bounds world, const Spheres& spheres);
 
 }  // namespace ballpit

@@ -1,0 +1,55 @@
+# The executables of a chapter: see docs/authoring.md, "A chapter's files".
+
+add_library(ballpit_checks STATIC
+    tests/checks/canvas.cpp tests/checks/check.cpp tests/checks/runner.cpp)
+ballpit_target(ballpit_checks CHECKED)
+target_link_libraries(ballpit_checks PUBLIC ballpit_core_checked ballpit_frame)
+target_include_directories(ballpit_checks SYSTEM PRIVATE ${CLI11_INCLUDE_DIR} ${JSON_INCLUDE_DIR})
+
+# Which of the student's pieces chapter `label` is built with: its own. One forwarding header a
+# piece; `./ballpit check --mine` rewrites them.
+function(ballpit_forward_pieces label)
+    file(GLOB starters CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/chapters
+         ${PROJECT_SOURCE_DIR}/chapters/*/*.cuh ${PROJECT_SOURCE_DIR}/chapters/*/*.h)
+    foreach(piece ${starters})
+        set(room solutions)
+        if(piece MATCHES "^${label}_")
+            set(room chapters)
+        endif()
+        set(header ${PROJECT_BINARY_DIR}/pieces/${label}/${piece})
+        if(NOT EXISTS ${header})
+            file(WRITE ${header} "#include \"${PROJECT_SOURCE_DIR}/${room}/${piece}\"\n")
+        endif()
+    endforeach()
+endfunction()
+
+# NN_name and check_NN from the student's piece, and both again from the solution.
+function(ballpit_chapter folder)
+    string(SUBSTRING ${folder} 0 2 label)
+    ballpit_forward_pieces(${label})
+    foreach(variant "" "_reference")
+        set(main ${folder}${variant})
+        set(check check_${label}${variant})
+        add_executable(${main} chapters/${folder}/main.cu)
+        add_executable(${check} tests/checks/check_${label}.cu)
+        if(variant)
+            ballpit_target(${main})
+            ballpit_target(${check} CHECKED)
+        else()
+            ballpit_target(${main} STUDENT)
+            ballpit_target(${check} CHECKED STUDENT)
+            set_target_properties(${main} ${check} PROPERTIES EXCLUDE_FROM_ALL ON)
+            foreach(target ${main} ${check})
+                target_include_directories(${target} BEFORE PRIVATE
+                                           ${PROJECT_BINARY_DIR}/pieces/${label})
+            endforeach()
+        endif()
+        target_link_libraries(${main} PRIVATE ballpit_film)
+        target_link_libraries(${check} PRIVATE ballpit_checks)
+    endforeach()
+    if(BUILD_TESTING)
+        # The solution passes its own checks; the student's are no test of ours.
+        add_test(NAME ${check} COMMAND ${check})
+        set_tests_properties(${check} PROPERTIES TIMEOUT 300)
+    endif()
+endfunction()
