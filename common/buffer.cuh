@@ -45,7 +45,7 @@ struct View {
     template <class Index>
     HD T& operator[](Index i) const {
 #ifdef BALLPIT_CHECKED
-        if (i < Index(0) || static_cast<unsigned long long>(i) >= count)
+        if (static_cast<unsigned long long>(i) >= count)  // a negative i becomes huge
             reportOutOfBounds(name, static_cast<long long>(i), count);
 #endif
         return data[i];
