@@ -1,0 +1,123 @@
+"""A verdict in words: what was tested, what is wrong, and what to type next."""
+
+from workbook import chapters, markers
+from workbook.terminal import paint, plural
+
+COLOURS = {"CORRECT": "green", "TODO": "yellow", "RACY": "magenta"}
+ELEMENTS_SHOWN = 3
+
+
+def text(verdict):
+    """The whole text, without the speed."""
+    lines = header(verdict)
+    if verdict.error:
+        lines += ["", *verdict.error.lines(), "", f"all of it: {verdict.error.log}"]
+        return "\n".join(lines)
+    lines += holes(verdict)
+    if verdict.state != "TODO":  # behind an open hole, a wrong answer says nothing
+        for result in verdict.failed:
+            lines += ["", *failure(result)]
+    for crash in verdict.crashes:
+        lines += ["", *crashed(crash)]
+    if verdict.timeout:
+        lines += ["", *timed_out(verdict.timeout)]
+    lines += [f"picture: {path} (yours | reference | errors in red)" for path in verdict.pictures]
+    lines += ["", counts(verdict)]
+    lines += [f"measured: {measured}" for measured in verdict.measured]
+    lines += next_steps(verdict)
+    return "\n".join(lines)
+
+
+def header(verdict):
+    state = paint(verdict.state, COLOURS.get(verdict.state, "red"))
+    lines = [f"{state}  {', '.join(verdict.files)}"]
+    if verdict.devices:
+        lines.append(f"  tested on {', '.join(verdict.devices)}, seed {verdict.seed}")
+    return lines + [f"  not tested on {skipped['device']}: {skipped['why']}"
+                    for skipped in verdict.skipped]
+
+
+def holes(verdict):
+    """The open holes that were reached, each with its place and task."""
+    if not verdict.holes:
+        return []
+    places = hole_places(verdict.chapter)
+    lines = ["", f"{plural(len(verdict.holes), 'open hole')}:"]
+    for hole in verdict.holes:
+        where, task = places.get(hole, ("", ""))
+        lines.append(f"  {where}  {hole}: {task}" if where else f"  {hole}")
+    return lines
+
+
+def hole_places(label):
+    """id -> ("file:line", task) for the holes of a chapter's student's files."""
+    chapter, places = chapters.find(label), {}
+    tasks = {hole.id: hole.task for hole in chapter.holes()}
+    for solution in chapter.solutions:
+        file = chapter.student_file(solution)
+        if file.exists():
+            for hole, (line, _) in markers.student_holes(file.read_text(errors="replace")).items():
+                places[hole] = f"{file.relative_to(chapters.ROOT)}:{line}", tasks.get(hole, "")
+    return places
+
+
+def failure(result):
+    """One failing check: its claim, the first wrong elements, a guess."""
+    word = {"racy": "racy", "cuda error": "CUDA error"}.get(result["state"], "wrong")
+    lines = [paint(f"{word}: {result['id']} ({result['device']})", "bold")]
+    if result.get("claim"):
+        lines.append(f"  should hold: {result['claim']}")
+    elements = result.get("failures", [])[:ELEMENTS_SHOWN]
+    lines += [f"  {one['what']}: got {one['got']}, expected {one['expected']}" for one in elements]
+    more = result.get("failure_count", len(elements)) - len(elements)
+    if more > 0:
+        lines.append(f"  ... and {more} more")
+    if result.get("message"):
+        lines.append(f"  {result['message']}")
+    if result.get("looks_like"):
+        lines.append(f"  looks like: {result['looks_like']}")
+    return lines
+
+
+def _check_name(report):
+    if not report["id"]:
+        return "before the first check"
+    return report["id"] + (f" ({report['device']})" if report["device"] else "")
+
+
+def crashed(crash):
+    lines = [paint(f"crashed: {_check_name(crash)}", "bold"), f"  {crash['how']}"]
+    return lines + ([f"  {crash['out_of_bounds']}"] if crash["out_of_bounds"] else [])
+
+
+def timed_out(timeout):
+    return [paint(f"did not end: {_check_name(timeout)}", "bold"),
+            f"  it was stopped after {timeout['limit']:g} s; the checks behind it did not run"]
+
+
+def counts(verdict):
+    total = len(verdict.results) + len(verdict.crashes) + (1 if verdict.timeout else 0)
+    already = " already" if verdict.holes else ""
+    return f"{verdict.passed_count} of {plural(total, 'check')} passed{already}"
+
+
+def speed(timing):
+    """What speed.measure() gave, in one line."""
+    yours, solution = timing["yours"], timing["solution"]
+    return (f"speed: yours {yours:.3g} ms, the solution's {solution:.3g} ms, ratio "
+            f"{yours / solution:.2f} ({timing['count']} balls, medians of {timing['pairs']})")
+
+
+def next_steps(verdict):
+    """The exact commands that help now."""
+    if verdict.state == "CORRECT":
+        return []
+    if verdict.holes:
+        return [f"hint:  ./ballpit hint {verdict.chapter} {verdict.holes[0]}"]
+    reports = verdict.failed + verdict.crashes + ([verdict.timeout] if verdict.timeout else [])
+    check = reports[0]["id"]
+    if not check:
+        return [f"hint:  ./ballpit hint {verdict.chapter}"]
+    seed = f" --seed {verdict.seed}" if verdict.seed is not None else ""
+    return [f"again: ./ballpit check {verdict.chapter} --case {check}{seed}{verdict.options}",
+            f"why:   ./ballpit explain {check}", f"hint:  ./ballpit hint {verdict.chapter}"]

@@ -1,0 +1,171 @@
+"""prove and mutants: the checks are checked. Starters must fail for the right reason, solutions
+must pass, and every classic mistake must be caught by the check that is there for it."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from workbook import build, chapters, checking, compile_errors, explaining, markers, processes
+from workbook.errors import InputError, ToolError
+from workbook.mutants import apply, mutants_of
+from workbook.terminal import note, paint
+from workbook.verdict import EXIT_CODES, Verdict
+
+AT_ONCE = 2
+
+
+def register(commands):
+    prove = commands.add_parser("prove", help="for authors: starters fail rightly, solutions pass")
+    prove.set_defaults(run=prove_command)
+    mutants = commands.add_parser("mutants", help="for authors: every classic mistake is caught")
+    mutants.add_argument("--keep-pictures", metavar="FOLDER", type=Path,
+                         help="save the mutants' pictures as FOLDER/NN/bug_<mutant>.png")
+    mutants.set_defaults(run=mutants_command)
+    for command in (prove, mutants):
+        command.add_argument("chapters", nargs="*", help="numbers or names (default: all)")
+        command.add_argument("--json", action="store_true", help="as one line of JSON")
+        command.add_argument("--time-limit", type=checking.positive, default=checking.TIME_LIMIT,
+                             metavar="S", help="seconds that one check may take")
+
+
+def run_all(args, jobs_of):
+    """Runs `jobs_of(chapter)`: (name, function -> problem or ""), two at a time; prints a line for
+    each and a summary. Exit code 1 if there was a problem."""
+    wanted = [checking.find_checked(word) for word in args.chapters] or [
+        chapter for chapter in chapters.all_chapters() if chapter.solutions]
+    planned = [(chapter, name, job) for chapter in wanted for name, job in jobs_of(chapter)]
+    outcomes = []
+    for chapter in wanted:
+        build.build([f"check_{chapter.label}_reference"])
+        build.set_mine(chapter, {chapter})
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        jobs = [(chapter, name, pool.submit(job)) for chapter, name, job in planned]
+        try:
+            for chapter, name, job in jobs:
+                problem = job.result()
+                outcomes.append({"chapter": chapter.label, "name": name, "problem": problem})
+                if not args.json:
+                    mark = paint("no", "red") if problem else paint("ok", "green")
+                    print(f"{mark}  {chapter.label} {name}" + (f": {problem}" if problem else ""),
+                          flush=True)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            processes.stop_all()
+            raise
+    failed = sum(bool(outcome["problem"]) for outcome in outcomes)
+    if args.json:
+        print(json.dumps({"ok": len(outcomes) - failed, "failed": failed, "outcomes": outcomes}))
+    else:
+        print(f"{len(outcomes) - failed} ok, {failed} failed")
+    return 1 if failed else 0
+
+
+def verdict_on(program, chapter, args, options=(), picture=None):
+    verdict = Verdict(chapter.label)
+    checking.run_checks(program, list(options), verdict, processes.Printed(), args.time_limit,
+                        picture)
+    return verdict
+
+
+def compiled(chapter, name, texts):
+    """(executable, "") or (None, why not)."""
+    program, log = build.compile_variant(chapter, name, texts)
+    if program:
+        return program, ""
+    error = compile_errors.find(log, [])
+    return None, f"does not build: {error.lines()[0] if error else log}"
+
+
+# ---- prove ---------------------------------------------------------------------------------------
+
+def prove_command(args):
+    return run_all(args, lambda chapter: proofs(chapter, args))
+
+
+def proofs(chapter, args):
+    """The starter, each hole alone, the starter with every hole filled, the solution."""
+    every = {hole.id for hole in chapter.holes()}
+    yield "the starter is TODO with all its holes", lambda: proof(chapter, args, every)
+    for hole in sorted(every):
+        yield f"{hole} alone is TODO", lambda hole=hole: proof(chapter, args, {hole})
+    yield "the starter with every hole filled is CORRECT", lambda: proof(chapter, args, set())
+    yield "the solution is CORRECT", lambda: judge(
+        verdict_on(build.executable(f"check_{chapter.label}_reference"), chapter, args), set())
+
+
+def proof(chapter, args, opened):
+    """What is wrong when exactly the holes of `opened` are open? "" if nothing is."""
+    solved = {hole.id for hole in chapter.holes()} - opened
+    texts = {solution: markers.starter(piece, solved)
+             for solution, piece in zip(chapter.solutions, chapter.pieces())}
+    name = f"open_{'_'.join(sorted(opened))}" if len(opened) == 1 else f"open_{len(opened)}"
+    program, problem = compiled(chapter, name, texts)
+    return problem or judge(verdict_on(program, chapter, args), opened)
+
+
+def judge(verdict, opened):
+    """Exactly the holes of `opened` must be reported, and nothing may crash or hang."""
+    if set(verdict.holes) != opened:
+        return f"open are {words(opened)}, reported were {words(verdict.holes)}"
+    if verdict.crashes:
+        return "; ".join(explaining.crashed(verdict.crashes[0]))
+    if verdict.timeout:
+        return "; ".join(explaining.timed_out(verdict.timeout))
+    if not opened and verdict.state != "CORRECT":
+        return f"{verdict.state}: {words(result['id'] for result in verdict.failed)}"
+    return ""
+
+
+def words(ids):
+    return ", ".join(sorted(ids)) or "none"
+
+
+# ---- mutants -------------------------------------------------------------------------------------
+
+def mutants_command(args):
+    if args.keep_pictures:
+        args.keep_pictures = args.keep_pictures.absolute()
+    return run_all(args, lambda chapter: hunts(chapter, args))
+
+
+def hunts(chapter, args):
+    found = mutants_of(chapter)
+    if not found:
+        note(f"chapter {chapter.label} has no mutants")
+    for mutant in found:
+        if mutant.state not in EXIT_CODES:
+            raise ToolError(f"{mutant.where}: unknown state '{mutant.state}'")
+        texts = apply(mutant, chapter)
+        yield (f"{mutant.name} is caught by {mutant.caught_by}",
+               lambda mutant=mutant, texts=texts: hunt(chapter, mutant, texts, args))
+
+
+def hunt(chapter, mutant, texts, args):
+    """Why the mutant was not rejected as it must be; "" if it was."""
+    program, problem = compiled(chapter, f"mutant_{mutant.name}", texts)
+    if problem:
+        return problem
+    verdict = verdict_on(program, chapter, args)
+    reports = verdict.rejects(mutant.caught_by)
+    if verdict.state != mutant.state:
+        return f"the verdict is {verdict.state}, not {mutant.state}"
+    if not reports:
+        others = words({report["id"] for report in verdict.failed + verdict.crashes})
+        return f"that check did not fail, but {others}"
+    guesses = [report.get("looks_like", "") for report in reports]
+    if not any(mutant.looks_like in guess for guess in guesses):
+        return f"no guess says '{mutant.looks_like}': {words(filter(None, guesses))}"
+    return save_picture(chapter, mutant, program, args) if mutant.picture else ""
+
+
+def save_picture(chapter, mutant, program, args):
+    """The named check's picture, for the lesson."""
+    if not args.keep_pictures:
+        return ""
+    picture = args.keep_pictures / chapter.label / f"bug_{mutant.name}.png"
+    try:
+        picture.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{picture.parent} cannot be written: {error.strerror}") from None
+    verdict_on(program, chapter, args, ["--case", mutant.caught_by], picture)
+    return "" if picture.exists() else f"{mutant.caught_by} drew no picture"

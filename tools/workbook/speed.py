@@ -1,0 +1,36 @@
+"""How fast is a student's piece? Its program's times, beside those of the solution's program."""
+
+import json
+import os
+import statistics
+
+from workbook import build, processes
+from workbook.errors import ToolError
+
+PAIRS = 5  # timed runs of yours and of the solution, in turn
+
+
+def pinned():
+    """Unpinned, two threads may share a core."""
+    return {name: os.environ.get(name, value)
+            for name, value in [("OMP_PROC_BIND", "close"), ("OMP_PLACES", "cores")]}
+
+
+def measure(chapter, options=()):
+    """Yours and the solution in turn, so that both meet the same machine: medians in ms."""
+    build.set_mine(chapter, {chapter})
+    targets = [chapter.folder, f"{chapter.folder}_reference"]
+    build.build(targets)
+    times, count = {target: [] for target in targets}, None
+    for _ in range(PAIRS):
+        for target in targets:
+            command = [str(build.executable(target)), "--time", "--json", *options]
+            try:
+                output = processes.output_of(command, env={**os.environ, **pinned()})
+                timing = json.loads(output or "")
+                times[target].append(float(timing["milliseconds"]))
+                count = timing["count"]
+            except (ValueError, KeyError):
+                raise ToolError(f"'{target} {' '.join(command[1:])}' gave no time") from None
+    yours, solution = (statistics.median(times[target]) for target in targets)
+    return {"yours": yours, "solution": solution, "count": count, "pairs": PAIRS}
