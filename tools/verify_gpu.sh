@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Everything that only a real GPU can show: builds with CUDA, then tests, CPU and GPU hashes side by
 # side, compute-sanitizer, the bench, and the price of exactness. For machines with an NVIDIA GPU.
-#     tools/verify_gpu.sh OUT_FOLDER [build|hashes|tests|sanitizer|bench|exactness ...]
+#     tools/verify_gpu.sh OUT_FOLDER [build|hashes|checks|tests|sanitizer|...]
 set -u
 cd "$(dirname "$0")/.."
 out=${1:?usage: tools/verify_gpu.sh OUT_FOLDER [part ...]}
 shift
-parts=${*:-build hashes tests sanitizer bench exactness}
+parts=${*:-build hashes checks tests sanitizer bench exactness}
 mkdir -p "$out"
 bin=build/cuda-release/bin
 failed=0
@@ -42,6 +42,17 @@ for part in $parts; do
             fi
         done
         rm -f "$out"/hash.*
+        ;;
+    checks) # of the chapters: solutions on CPU and GPU, under memcheck too
+        for check in $bin/check_*_reference; do
+            name=$(basename "$check")
+            run "$check" >"$out/$name.log" 2>&1
+            compute-sanitizer --tool memcheck --error-exitcode 9 "$check" --device cuda \
+                >"$out/$name.memcheck.log" 2>&1 || failed=1
+            echo "$name: $(grep -c '^passed' "$out/$name.log") passed," \
+                "$(grep -c -v -e '^passed' -e '^ ' "$out/$name.log") other lines;" \
+                "$(grep -h 'ERROR SUMMARY' "$out/$name.memcheck.log")"
+        done
         ;;
     tests)
         ctest --test-dir build/cuda-release --output-on-failure -j 4 >"$out/tests.log" 2>&1 || failed=1

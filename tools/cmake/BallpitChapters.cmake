@@ -23,6 +23,9 @@ function(ballpit_forward_pieces label)
     endforeach()
 endfunction()
 
+# What students' files are part of, in one target.
+add_custom_target(starters)
+
 # NN_name and check_NN from the student's piece, and both again from the solution.
 function(ballpit_chapter folder)
     string(SUBSTRING ${folder} 0 2 label)
@@ -39,6 +42,7 @@ function(ballpit_chapter folder)
             ballpit_target(${main} STUDENT)
             ballpit_target(${check} CHECKED STUDENT)
             set_target_properties(${main} ${check} PROPERTIES EXCLUDE_FROM_ALL ON)
+            add_dependencies(starters ${main} ${check})
             foreach(target ${main} ${check})
                 target_include_directories(${target} BEFORE PRIVATE
                                            ${PROJECT_BINARY_DIR}/pieces/${label})
