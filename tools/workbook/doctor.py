@@ -120,7 +120,7 @@ def look_at_nvcc():
 
 @functools.lru_cache(maxsize=None)
 def probes():
-    """What the executable ballpit_doctor finds, built first. Never raises: problems are findings."""
+    """What the executable ballpit_doctor finds, built first. Problems are findings, too."""
     try:
         build.build(["ballpit_doctor"])
     except (InputError, ToolError) as error:

@@ -1,5 +1,6 @@
 """Files written whole or not at all, and copies of what a student would lose."""
 
+import contextlib
 import os
 import time
 
@@ -21,7 +22,8 @@ def write(path, content):
         partial.write_bytes(data)
         os.replace(partial, path)
     except OSError as error:
-        partial.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            partial.unlink()
         raise InputError(f"{relative(path)} cannot be written: {error.strerror}") from None
 
 

@@ -46,12 +46,13 @@ def own_lines(parts):
 
 def section_faults(prose):
     headings = [(number, line[3:].strip()) for number, line in prose if line.startswith("## ")]
-    names = [name for _, name in headings]
+    names = []
     for number, name in headings:
         if name not in SECTIONS:
             yield f":{number}", f"section '{name}' is not one of a lesson's sections"
-        elif names.count(name) > 1:
+        elif name in names:
             yield f":{number}", f"section '{name}' stands here twice"
+        names.append(name)
     yield from (("", f"section '{name}' is missing") for name in SECTIONS if name not in names)
     known = [(number, name) for number, name in headings if name in SECTIONS]
     for (_, before), (number, name) in zip(known, known[1:]):
