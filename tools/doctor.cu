@@ -92,8 +92,8 @@ int main() {
 #else
     report("graphics", [] {
         return Finding{"no", "this build can neither draw nor record (chapters 08 to 10)",
-                       "install what docs/dependencies.md names, remove the build folder, and call "
-                       "./ballpit doctor again"};
+                       "remove build/cpu-release and build/cuda-release, then call ./ballpit test: "
+                       "it installs the libraries"};
     });
 #endif
     return 0;
