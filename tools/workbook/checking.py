@@ -189,6 +189,8 @@ def run_checks(program, options, verdict, printed, time_limit, picture=None):
             if verdict.ended or not crashed:
                 break
             go_on = ["--after", crashed]
+        else:
+            verdict.gave_up = True
     if not (verdict.results or verdict.crashes or verdict.timeout):
         raise ToolError(f"{program.name} reported no check at all")
 

@@ -1,6 +1,8 @@
 """A verdict in words: what was tested, what is wrong, and what to type next."""
 
-from workbook import chapters, markers
+from pathlib import Path
+
+from workbook import chapters, files, markers
 from workbook.terminal import paint, plural
 
 COLOURS = {"CORRECT": "green", "TODO": "yellow", "RACY": "magenta"}
@@ -19,13 +21,17 @@ def text(verdict):
             lines += ["", *failure(result)]
     for crash in verdict.crashes:
         lines += ["", *crashed(crash)]
+    if verdict.gave_up:
+        lines += ["", "the checks behind the fifth crash did not run"]
     if verdict.timeout:
         lines += ["", *timed_out(verdict.timeout)]
-    lines += [f"picture: {path} (yours | reference | errors in red)" for path in verdict.pictures]
     lines += ["", counts(verdict)]
-    lines += [f"measured: {measured}" for measured in verdict.measured]
-    lines += next_steps(verdict)
-    return "\n".join(lines)
+    if verdict.state == "CORRECT":
+        return "\n".join(lines + [f"measured: {answer}" for answer in verdict.measured])
+    if verdict.state != "TODO":
+        lines += [f"picture: {files.relative(Path(path))} (yours | reference | errors in red)"
+                  for path in verdict.pictures]
+    return "\n".join(lines + next_steps(verdict))
 
 
 def header(verdict):
@@ -86,8 +92,8 @@ def _check_name(report):
 
 
 def crashed(crash):
-    lines = [paint(f"crashed: {_check_name(crash)}", "bold"), f"  {crash['how']}"]
-    return lines + ([f"  {crash['out_of_bounds']}"] if crash["out_of_bounds"] else [])
+    return [paint(f"crashed: {_check_name(crash)}", "bold"),
+            f"  {crash['out_of_bounds'] or crash['how']}"]
 
 
 def timed_out(timeout):
@@ -110,8 +116,6 @@ def speed(timing):
 
 def next_steps(verdict):
     """The exact commands that help now."""
-    if verdict.state == "CORRECT":
-        return []
     if verdict.holes:
         return [f"hint:  ./ballpit hint {verdict.chapter} {verdict.holes[0]}"]
     reports = verdict.failed + verdict.crashes + ([verdict.timeout] if verdict.timeout else [])

@@ -103,10 +103,11 @@ class Printed:
         return line
 
     def _keep(self, line):
-        self.line_count += 1
         if line.startswith(b"out of bounds: "):
             self.out_of_bounds = line[:self.LINE_LENGTH].decode(errors="replace")
-        elif len(self.lines) < self.LINES_KEPT:
+            return
+        self.line_count += 1
+        if len(self.lines) < self.LINES_KEPT:
             self.lines.append(line[:self.LINE_LENGTH].decode(errors="replace"))
 
 
@@ -119,6 +120,7 @@ def run_watched(command, events, time_limit, byte_limit, printed):
     reader = threading.Thread(target=printed.read, args=(child.stdout,), daemon=True)
     reader.start()
     size, deadline, why = 0, time.monotonic() + time_limit, ""
+    byte_limit += printed.byte_count  # of an earlier run
     try:
         while not why:
             try:

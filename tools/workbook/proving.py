@@ -8,7 +8,7 @@ from pathlib import Path
 from workbook import build, chapters, checking, compile_errors, explaining, markers, processes
 from workbook.errors import InputError, ToolError
 from workbook.mutants import apply, mutants_of
-from workbook.terminal import note, paint
+from workbook.terminal import note, paint, uncoloured
 from workbook.verdict import EXIT_CODES, Verdict
 
 AT_ONCE = 2
@@ -108,12 +108,16 @@ def judge(verdict, opened):
     if set(verdict.holes) != opened:
         return f"open are {words(opened)}, reported were {words(verdict.holes)}"
     if verdict.crashes:
-        return "; ".join(explaining.crashed(verdict.crashes[0]))
+        return one_line(explaining.crashed(verdict.crashes[0]))
     if verdict.timeout:
-        return "; ".join(explaining.timed_out(verdict.timeout))
+        return one_line(explaining.timed_out(verdict.timeout))
     if not opened and verdict.state != "CORRECT":
         return f"{verdict.state}: {words(result['id'] for result in verdict.failed)}"
     return ""
+
+
+def one_line(lines):
+    return uncoloured("; ".join(line.strip() for line in lines))
 
 
 def words(ids):

@@ -31,6 +31,8 @@ def measure(chapter, options=()):
                 times[target].append(float(timing["milliseconds"]))
                 count = timing["count"]
             except (ValueError, KeyError):
-                raise ToolError(f"'{target} {' '.join(command[1:])}' gave no time") from None
+                shown = " ".join([target, *command[1:]])
+                raise ToolError(f"'{shown}' did not print one line of JSON with \"milliseconds\" "
+                                'and "count"') from None
     yours, solution = (statistics.median(times[target]) for target in targets)
     return {"yours": yours, "solution": solution, "count": count, "pairs": PAIRS}

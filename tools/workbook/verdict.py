@@ -39,6 +39,7 @@ class Verdict:
     measured: list = field(default_factory=list)       # texts
     pictures: list = field(default_factory=list)       # paths
     speed: dict = None                                 # filled in after CORRECT
+    gave_up: bool = False                              # after too many crashes
     ended: bool = False                                # an "end" event came in the last run
     running: tuple = None                              # (id, device) of the check under way
     last: tuple = None                                 # (id, device) of the last check begun
