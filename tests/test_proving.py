@@ -95,6 +95,14 @@ class Hunting(Authors):
                 self.assertTrue(line.startswith("no  01 two_for_one is caught by"), line)
                 self.assertIn(words, line)
 
+    def test_nothing_to_show_is_no_success(self):
+        self.assertIn("no  01 has mutants: write tests/checks/mutants_01.txt",
+                      self.lines(1, "mutants", "01"))
+        for folder in ("01_first", "02_second"):
+            (self.root / f"chapters/{folder}/README.md").unlink()
+        for command in ("prove", "mutants"):
+            self.refuses(["no chapter with holes"], command, code=1)
+
     def test_lines_that_are_not_there_once_are_refused(self):
         for old, count in [("return 9;", 0), ("return 1;", 2)]:
             if count == 2:

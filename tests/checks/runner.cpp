@@ -1,5 +1,6 @@
 // Runs checks and tells what happens as events (docs/authoring.md, "Checks").
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -180,6 +181,8 @@ void printList(const std::vector<Check>& checks) {
 
 int runChecks(int argc, char** argv, const std::string& chapter, const std::vector<Check>& checks,
               const std::function<std::vector<std::string>()>& reachedHoles) {
+    // Line by line also into a pipe: what a student printed must survive the crash it looks for.
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
     CLI::App app{"Checks of chapter " + chapter + ". `./ballpit check " + chapter +
                  "` builds and runs them and says more."};
     Request request;

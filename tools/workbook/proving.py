@@ -8,7 +8,7 @@ from pathlib import Path
 from workbook import build, chapters, checking, compile_errors, explaining, markers, processes
 from workbook.errors import InputError, ToolError
 from workbook.mutants import apply, mutants_of
-from workbook.terminal import note, paint, uncoloured
+from workbook.terminal import paint, uncoloured
 from workbook.verdict import EXIT_CODES, Verdict
 
 AT_ONCE = 2
@@ -33,6 +33,8 @@ def run_all(args, jobs_of):
     each and a summary. Exit code 1 if there was a problem."""
     wanted = [checking.find_checked(word) for word in args.chapters] or [
         chapter for chapter in chapters.all_chapters() if chapter.solutions]
+    if not wanted:
+        raise ToolError("there is no chapter with holes, so nothing is shown")
     planned = [(chapter, name, job) for chapter in wanted for name, job in jobs_of(chapter)]
     outcomes = []
     for chapter in wanted:
@@ -135,7 +137,7 @@ def mutants_command(args):
 def hunts(chapter, args):
     found = mutants_of(chapter)
     if not found:
-        note(f"chapter {chapter.label} has no mutants")
+        yield "has mutants", lambda: f"write tests/checks/mutants_{chapter.label}.txt"
     for mutant in found:
         if mutant.state not in EXIT_CODES:
             raise ToolError(f"{mutant.where}: unknown state '{mutant.state}'")
