@@ -8,6 +8,7 @@ from workbook import blocks, lessons, markers, pictures
 from workbook.chapters import ROOT, all_chapters, find
 from workbook.errors import FAILED
 from workbook.files import back_up, relative, write
+from workbook.terminal import plural
 
 SHOWN_LINES = 12
 
@@ -77,9 +78,10 @@ class Checker:
         for fault in self.faults:
             print(fault)
         if self.faults:
-            print(f"gen --check: {len(self.faults)} faults; ./ballpit gen mends what is stale")
+            print(f"gen --check: {plural(len(self.faults), 'fault')}; `./ballpit gen` "
+                  "mends what is stale")
             return FAILED
-        print(f"gen --check: {self.compared} files are fresh")
+        print(f"gen --check: {plural(self.compared, 'file')} compared, all fresh")
         return 0
 
 
@@ -119,7 +121,7 @@ class Writer:
         self.written += 1
 
     def finish(self):
-        print(f"gen: {self.written} files written, {self.kept} were fresh")
+        print(f"gen: {plural(self.written, 'file')} written, {self.kept} fresh already")
         return 0
 
 
