@@ -243,5 +243,5 @@ class Miniature(unittest.TestCase):
         for word in words:
             self.assertIn(word, said)
 
-    def gen(self):
-        self.ballpit("gen")
+    def gen(self, *options):
+        self.ballpit("gen", *options)

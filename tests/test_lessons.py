@@ -162,7 +162,7 @@ class Linting(Miniature):
         before = self.read(name)
         for old, new in replacements:
             self.replace(name, old, new)
-        said = self.ballpit("gen", "--check", code=1)
+        said = self.ballpit("gen", "--check", "--text-only", code=1)
         self.write(name, before)
         self.assertIn(words, said)
         self.assertIn("gen --check: 1 fault", said)
@@ -191,7 +191,7 @@ class Linting(Miniature):
         text = self.read(lesson)
         start, end = text.index("<!-- gen holes -->"), text.index("See `beta.right`")
         self.write(lesson, text[:start] + "- `beta.one`\n\n" + text[end:])
-        said = self.ballpit("gen", "--check", code=1)
+        said = self.ballpit("gen", "--check", "--text-only", code=1)
         self.assertIn("hole beta.two has no task in section Tasks", said)
 
     def test_each_fault_of_the_hints(self):
@@ -207,7 +207,7 @@ class Linting(Miniature):
         self.replace("chapters/02_beta/README.md", "Text.",
                      f"See [there](https://example.org/{link}) and `main.cu`, [above](#tasks).\n\n"
                      f"```\n{code}\n```\n\n| {row}|")
-        self.assertIn("fresh", self.ballpit("gen", "--check"))
+        self.assertIn("fresh", self.ballpit("gen", "--check", "--text-only"))
 
     def test_every_section_of_the_contract_is_known(self):
         contract = (PROJECT / "docs/authoring.md").read_text()

@@ -20,7 +20,7 @@ BUILD = Path(sys.argv[1])
 class Reading(Miniature):
     def setUp(self):
         super().setUp()
-        self.gen()
+        self.gen("--text-only")
 
     def solve(self, hole, code):
         """Fills a hole of the student's file."""

@@ -1,4 +1,11 @@
-"""A sheet for the lessons' figures: a few shapes in the house colours, given out as SVG text."""
+"""A sheet for the lessons' figures: a few shapes in the house colours, given out as SVG text.
+
+A chapter's script, figures_NN.py, holds
+
+    FIGURES = {"cells": cells}                  # figures/cells.svg is what cells(run) returns;
+                                                # run("--count", 8) gives the executable's JSON
+    PICTURES = {"view": ["--count", "500"]}     # figures/view.png: the executable renders it
+"""
 
 import math
 from xml.sax.saxutils import escape
