@@ -58,6 +58,11 @@ class Proving(Authors):
                                    "reported were none")
         self.assertEqual(lines[-1], "3 ok, 2 failed")
 
+    def test_a_hole_that_is_reported_although_it_is_filled_is_found(self):
+        self.change_solution("return 2;", 'TODO_HOLE("first.other"); return 2;')
+        self.assertEqual(self.lines(1, "prove", "1")[2], "no  01 first.value alone is TODO: open "
+                         "are first.value, reported were first.other, first.value")
+
     def test_a_wrong_solution_is_found(self):
         self.change_solution("return 1;", "return 3;")
         lines = self.lines(1, "prove", "01")
@@ -68,6 +73,16 @@ class Proving(Authors):
                  "'first.other'}, lambda: os.abort()])]")
         line = self.lines(1, "prove", "01", scenario=crash)[0]
         self.assertIn("all its holes: crashed: value (cpu); it was aborted", line)
+
+    def test_a_chapter_without_holes_needs_no_mutants(self):
+        self.write("chapters/00_look/README.md", "# A chapter\n")
+        self.write("chapters/00_look/look.cuh", "return 1;\n")
+        self.write("solutions/00_look/look.cuh", "//@show all\nreturn 1;\n//@end\n")
+        self.write("tests/checks/check_00.cu", "")
+        self.assertEqual(self.lines(0, "prove", "0"), [
+            "ok  00 the starter with every hole filled is CORRECT",
+            "ok  00 the solution is CORRECT", "2 ok, 0 failed"])
+        self.lines(0, "mutants", "0")
 
     def test_json(self):
         outcome = json.loads(self.lines(0, "prove", "2", "--json")[0])
@@ -101,7 +116,7 @@ class Hunting(Authors):
         for folder in ("01_first", "02_second"):
             (self.root / f"chapters/{folder}/README.md").unlink()
         for command in ("prove", "mutants"):
-            self.refuses(["no chapter with holes"], command, code=1)
+            self.refuses(["no chapter with pieces"], command, code=1)
 
     def test_lines_that_are_not_there_once_are_refused(self):
         for old, count in [("return 9;", 0), ("return 1;", 2)]:

@@ -131,9 +131,11 @@ class BadCalls(Workbook):
 
 class Interrupted(Workbook):
     def begin(self, *arguments, **environment):
-        return subprocess.Popen([self.root / "ballpit", *arguments, "--no-install"], text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=self.root,
-                                env={**self.environment, **environment})
+        process = subprocess.Popen([self.root / "ballpit", *arguments, "--no-install"], text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=self.root,
+                                   env={**self.environment, **environment})
+        self.addCleanup(process.terminate)
+        return process
 
     def interrupt(self, *arguments, pid_file, **environment):
         """Ctrl-C while a child runs: the child is gone. Returns the ended process."""
@@ -142,16 +144,17 @@ class Interrupted(Workbook):
         wait_until(lambda: pid_file.exists() and pid_file.read_text().strip())
         time.sleep(0.2)
         process.send_signal(signal.SIGINT)
-        process.out, process.err = process.communicate(timeout=30)
+        process.out, process.err = process.communicate(timeout=15)  # the check would take 30
         self.assertFalse(is_alive(int(pid_file.read_text())))
         return process
 
     def test_a_check_and_a_build_end_with_130_and_nothing_is_lost(self):
         piece = self.solve()
         before = piece.read_text()
-        for environment in ({"FAKE_SCENARIO": scenario(("a", HANG))},
-                            {"FAKE_SLOW": str(self.root / "pid")}):
-            process = self.interrupt("check", "01", pid_file="pid", **environment)
+        hang = {"FAKE_SCENARIO": scenario(("a", HANG))}
+        for command, environment in [("check", hang), ("prove", hang),
+                                     ("check", {"FAKE_SLOW": str(self.root / "pid")})]:
+            process = self.interrupt(command, "01", pid_file="pid", **environment)
             self.assertEqual((process.returncode, process.out), (130, ""), process.err)
             self.assertEqual(process.err.splitlines()[-1], "interrupted")
             self.assertNotIn("Traceback", process.err)

@@ -10,7 +10,7 @@ import difflib
 import importlib
 import signal
 
-from workbook import build, processes
+from workbook import build
 from workbook.errors import BAD_INPUT, FAILED, INTERRUPTED, InputError, ToolError
 
 MODULES = ["progress", "checking", "reading", "running", "doctor", "proving", "generating"]
@@ -96,7 +96,6 @@ def main():
         # The reader (`| head`) has seen enough. Python would complain once more when it closes.
         sys.stdout = None
         return 0
-    processes.stop_all()
     print(problem, file=sys.stderr)
     return code
 

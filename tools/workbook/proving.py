@@ -34,7 +34,7 @@ def run_all(args, jobs_of):
     wanted = [checking.find_checked(word) for word in args.chapters] or [
         chapter for chapter in chapters.all_chapters() if chapter.solutions]
     if not wanted:
-        raise ToolError("there is no chapter with holes, so nothing is shown")
+        raise ToolError("there is no chapter with pieces, so nothing is shown")
     planned = [(chapter, name, job) for chapter in wanted for name, job in jobs_of(chapter)]
     outcomes = []
     for chapter in wanted:
@@ -87,7 +87,8 @@ def prove_command(args):
 def proofs(chapter, args):
     """The starter, each hole alone, the starter with every hole filled, the solution."""
     every = {hole.id for hole in chapter.holes()}
-    yield "the starter is TODO with all its holes", lambda: proof(chapter, args, every)
+    if every:  # chapter 00 has none: there is a piece to look at
+        yield "the starter is TODO with all its holes", lambda: proof(chapter, args, every)
     for hole in sorted(every):
         yield f"{hole} alone is TODO", lambda hole=hole: proof(chapter, args, {hole})
     yield "the starter with every hole filled is CORRECT", lambda: proof(chapter, args, set())
@@ -136,7 +137,7 @@ def mutants_command(args):
 
 def hunts(chapter, args):
     found = mutants_of(chapter)
-    if not found:
+    if not found and chapter.holes():
         yield "has mutants", lambda: f"write tests/checks/mutants_{chapter.label}.txt"
     for mutant in found:
         if mutant.state not in EXIT_CODES:
