@@ -20,19 +20,24 @@ inline double median(std::vector<double> values) {
 }
 
 /// The median time of `work` in ms, waiting for the device after each run; one run before the
-/// first is not counted.
-template <class Work>
-double medianMilliseconds(Device device, int repeats, Work work) {
-    work();
-    synchronize(device);
+/// first is not counted. `prepare` runs before each, outside its time: work that eats its input.
+template <class Prepare, class Work>
+double medianMilliseconds(Device device, int repeats, Prepare prepare, Work work) {
     std::vector<double> times;
-    for (int k = 0; k < repeats; ++k) {
+    for (int k = -1; k < repeats; ++k) {
+        prepare();
+        synchronize(device);
         const double start = milliseconds();
         work();
         synchronize(device);
-        times.push_back(milliseconds() - start);
+        if (k >= 0) times.push_back(milliseconds() - start);
     }
     return median(times);
+}
+
+template <class Work>
+double medianMilliseconds(Device device, int repeats, Work work) {
+    return medianMilliseconds(device, repeats, [] {}, work);
 }
 
 }  // namespace ballpit

@@ -93,9 +93,9 @@ Sorted sortWithLibrary(Device device, const Numbers& keys, int keyBits) {
 }
 
 Sorted sortWithChapter03(Device device, const Numbers& keys, int keyBits) {
-    Scratch scratch(device, 0, "scratch");
+    RadixSortSpace space(device, static_cast<int>(keys.size()));
     auto inKeys = onDevice(device, keys), inValues = onDevice(device, firstNumbers(keys.size()));
-    radixSort(device, keyBits, inKeys, inValues, scratch);
+    radixSort(device, keyBits, inKeys, inValues, space);
     return {inKeys.download(), inValues.download()};
 }
 

@@ -1,13 +1,14 @@
 // Chapter 03: sorting (hash, slot) pairs by hash, stably, digit by digit from the lowest.
 //
-// `radixSort` is the sort a student writes: every thread owns a tile of consecutive elements. The
+// `radixSort` is the sort a student writes: every thread owns a tile of consecutive pairs. The
 // engine itself calls the library (`sortByHash`); the chapter races the two.
 #pragma once
 
-#include <algorithm>
+#include <utility>
 
 #include "common/algorithms.h"
 #include "common/buffer.cuh"
+//@starter #include "common/hole.cuh"
 #include "common/launch.cuh"
 #include "common/uniform_grid.cuh"
 
@@ -17,25 +18,43 @@ constexpr int digitBits = 4;
 constexpr std::uint32_t digitCount = 1u << digitBits;
 constexpr int tileSize = 256;
 
+/// The digit, 0 to 15, that begins at bit `shift`: one figure of the key written in hexadecimal.
 HD inline std::uint32_t digitOf(std::uint32_t key, int shift) {
+    //@hole sort.digit lines=1 "The four bits of the key that begin at bit `shift`, as a number"
+    //@starter TODO_HOLE("sort.digit");
+    //@starter return 0;
     return key >> shift & (digitCount - 1u);
+    //@end
 }
 
+/// `count` pairs are cut into tiles of tileSize; the last tile may be shorter.
+HD inline int tileCountFor(int count) { return (count + tileSize - 1) / tileSize; }
 HD inline int tileEnd(int tile, int count) {
     const int end = (tile + 1) * tileSize;
     return end < count ? end : count;
 }
 
-/// How many keys of this tile have each digit? Written digit by digit over all tiles, so that one
-/// scan of `counts` gives every tile's first place for every digit.
-HD inline void countDigits(int tile, int count, int tileCount, int shift,
-                           View<const std::uint32_t> keys, View<std::uint32_t> counts) {
+/// Which counter belongs to this digit in this tile? The scan adds the counters up in their order,
+/// so it must be the order of the sorted list: digit 0 of every tile, then digit 1 of every tile.
+HD inline std::uint32_t counterOf(std::uint32_t digit, int tile, int tileCount) {
+    //@hole sort.layout lines=1 "The counter's number: digit by digit, and in a digit tile by tile"
+    //@starter TODO_HOLE("sort.layout");
+    //@starter return 0;
+    return digit * static_cast<std::uint32_t>(tileCount) + static_cast<std::uint32_t>(tile);
+    //@end
+}
+
+/// How many keys of this tile have each digit?
+HD inline void countDigits(int tile, int count, int shift, View<const std::uint32_t> keys,
+                           View<std::uint32_t> counts) {
     std::uint32_t histogram[digitCount] = {};
+    //@hole sort.count lines=2 "Count the digits of this tile's keys in `histogram`"
+    //@starter TODO_HOLE("sort.count");
     for (int i = tile * tileSize; i < tileEnd(tile, count); ++i)
         ++histogram[digitOf(keys[i], shift)];
+    //@end
     for (std::uint32_t digit = 0; digit < digitCount; ++digit)
-        counts[digit * static_cast<std::uint32_t>(tileCount) + static_cast<std::uint32_t>(tile)] =
-            histogram[digit];
+        counts[counterOf(digit, tile, tileCountFor(count))] = histogram[digit];
 }
 
 /// The arrays of one pass: `from` is read, `to` is written.
@@ -44,48 +63,73 @@ struct SortPassView {
     View<std::uint32_t> toKeys, toValues;
 };
 
-/// Moves the elements of this tile to their places, first to last, which keeps the sort stable.
-HD inline void scatterByDigit(int tile, int count, int tileCount, int shift, SortPassView pass,
+/// Moves the pairs of this tile to their places. `starts` says where the tile's first pair of each
+/// digit goes; the next pair of that digit goes behind it.
+HD inline void scatterByDigit(int tile, int count, int shift, SortPassView pass,
                               View<const std::uint32_t> starts) {
     std::uint32_t next[digitCount];
     for (std::uint32_t digit = 0; digit < digitCount; ++digit)
-        next[digit] = starts[digit * static_cast<std::uint32_t>(tileCount) +
-                             static_cast<std::uint32_t>(tile)];
+        next[digit] = starts[counterOf(digit, tile, tileCountFor(count))];
+    //@hole sort.scatter lines=5 "Move each pair of this tile, first to last, to its digit's next place"
+    //@starter TODO_HOLE("sort.scatter");
     for (int i = tile * tileSize; i < tileEnd(tile, count); ++i) {
         const std::uint32_t place = next[digitOf(pass.fromKeys[i], shift)]++;
         pass.toKeys[place] = pass.fromKeys[i];
         pass.toValues[place] = pass.fromValues[i];
     }
+    //@end
 }
 
-/// Sorts (keys, values) by the lowest `keyBits` bits of the key, stably, in place.
-inline void radixSort(Device device, int keyBits, DeviceBuffer<std::uint32_t>& keys,
-                      DeviceBuffer<std::uint32_t>& values, Scratch& scratch) {
-    const int count = static_cast<int>(keys.count());
-    const int tileCount = (count + tileSize - 1) / tileSize;
-    const std::size_t countersNeeded = static_cast<std::size_t>(tileCount) * digitCount;
-    DeviceBuffer<std::uint32_t> counts(device, countersNeeded, "digitCounts");
-    DeviceBuffer<std::uint32_t> starts(device, countersNeeded + 1, "digitStarts");
-    DeviceBuffer<std::uint32_t> otherKeys(device, keys.count(), "otherKeys");
-    DeviceBuffer<std::uint32_t> otherValues(device, values.count(), "otherValues");
+/// What a sort of `count` pairs needs besides them. Made once and used for every sort of so many:
+/// a device takes its time to find memory.
+struct RadixSortSpace {
+    RadixSortSpace(Device device, int count)
+        : keys(device, static_cast<std::size_t>(count), "otherKeys"),
+          values(device, static_cast<std::size_t>(count), "otherValues"),
+          counts(device, tileCountFor(count) * digitCount, "digitCounts"),
+          starts(device, tileCountFor(count) * digitCount + 1, "digitStarts"),
+          scratch(device, 0, "scratch") {}
 
+    DeviceBuffer<std::uint32_t> keys, values;    ///< where a pass writes to
+    DeviceBuffer<std::uint32_t> counts, starts;  ///< one of each digit in each tile
+    Scratch scratch;
+};
+
+/// One pass: the pairs of (keys, values), ordered by one digit, are written to the space's arrays.
+inline void sortPass(Device device, int shift, DeviceBuffer<std::uint32_t>& keys,
+                     DeviceBuffer<std::uint32_t>& values, RadixSortSpace& space) {
+    //@show pass
+    const int count = static_cast<int>(keys.count()), tileCount = tileCountFor(count);
+    launch<countDigits>(device, tileCount, count, shift, View<const std::uint32_t>(keys.view()),
+                        space.counts.view());
+    exclusiveScan(device, static_cast<int>(space.counts.count()), space.counts.data(),
+                  space.starts.data(), space.scratch);
+    const SortPassView pass{keys.view(), values.view(), space.keys.view(), space.values.view()};
+    launch<scatterByDigit>(device, tileCount, count, shift, pass,
+                           View<const std::uint32_t>(space.starts.view()));
+    //@end
+}
+
+/// Sorts (keys, values) by key, stably, in place. Keys have no bits set above the lowest `keyBits`.
+inline void radixSort(Device device, int keyBits, DeviceBuffer<std::uint32_t>& keys,
+                      DeviceBuffer<std::uint32_t>& values, RadixSortSpace& space) {
+    //@hole sort.passes lines=5 "A pass for every digit, lowest first; after each, swap the arrays"
+    //@starter TODO_HOLE("sort.passes");
     for (int shift = 0; shift < keyBits; shift += digitBits) {
-        launch<countDigits>(device, tileCount, count, tileCount, shift,
-                            View<const std::uint32_t>(keys.view()), counts.view());
-        exclusiveScan(device, static_cast<int>(countersNeeded), counts.data(), starts.data(),
-                      scratch);
-        const SortPassView pass{keys.view(), values.view(), otherKeys.view(), otherValues.view()};
-        launch<scatterByDigit>(device, tileCount, count, tileCount, shift, pass,
-                               View<const std::uint32_t>(starts.view()));
-        std::swap(keys, otherKeys);
-        std::swap(values, otherValues);
+        sortPass(device, shift, keys, values, space);
+        std::swap(keys, space.keys);
+        std::swap(values, space.values);
     }
+    //@end
 }
 
 /// Sorts the grid's (hash, slot) pairs with the library, over only as many bits as the cells need.
 inline void sortByHash(Device device, int count, UniformGrid& grid, Scratch& scratch) {
+    //@hole sort.library lines=2 "Call sortPairs: from hashes and indices to their sorted arrays"
+    //@starter TODO_HOLE("sort.library");
     sortPairs(device, count, grid.hashBits(), grid.hashes.data(), grid.indices.data(),
               grid.sortedHashes.data(), grid.sortedIndices.data(), scratch);
+    //@end
 }
 
 }  // namespace ballpit
