@@ -57,7 +57,7 @@ public:
         launch<computeGridHash>(device_, count_, grid_.view(), from.positions, grid_.hashes.view(),
                                 grid_.indices.view(), status_.view());
         sortByHash(device_, count_, grid_, scratch_);
-        grid_.clearCells();
+        clearCells(grid_);
         launch<reorderAndFindCells>(device_, count_, count_, grid_.sortedHashes.view(),
                                     grid_.sortedIndices.view(), from, to, grid_.view());
         findPairsGrid(device_, count_, grid_.view(), grid_.sortedHashes.view(), to.positions,

@@ -43,12 +43,6 @@ public:
                 cellEnds.view()};
     }
 
-    /// Empties all cells; findCellStart then fills the occupied ones.
-    void clearCells() {
-        cellStarts.fill(0xFF);
-        cellEnds.fill(0);
-    }
-
     std::size_t cellCount() const {
         return static_cast<std::size_t>(resolution.x) * static_cast<std::size_t>(resolution.y) *
                static_cast<std::size_t>(resolution.z);

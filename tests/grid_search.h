@@ -56,7 +56,7 @@ private:
         sortByHash(device, count_, grid_, scratch_);
         launch<reorderData>(device, count_, View<const std::uint32_t>(grid_.sortedIndices.view()),
                             bodies_.view(unsorted), bodies_.view(sorted));
-        grid_.clearCells();
+        clearCells(grid_);
         launch<findCellStart>(device, count_, count_,
                               View<const std::uint32_t>(grid_.sortedHashes.view()), grid_.view());
         bodies_.commit(sorted);

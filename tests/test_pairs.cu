@@ -235,7 +235,7 @@ TEST_CASE("the cells of a row know their slots, whatever was in the grid before"
     grid.sortedHashes.upload(hashes);
     grid.cellStarts.upload(std::vector<std::uint32_t>(60, 0));
     grid.cellEnds.upload(std::vector<std::uint32_t>(60, 1000));
-    grid.clearCells();
+    clearCells(grid);
     launch<findCellStart>(device, count, count, View<const std::uint32_t>(grid.sortedHashes.view()),
                           grid.view());
 

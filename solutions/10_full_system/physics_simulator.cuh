@@ -111,7 +111,7 @@ public:
         timer_.start("sort");
         sortByHash(settings_.device, count_, grid_, scratch_);
         timer_.start("reorder + cell bounds");
-        grid_.clearCells();
+        clearCells(grid_);
         launch<reorderAndFindCells>(settings_.device, count_, count_, grid_.sortedHashes.view(),
                                     grid_.sortedIndices.view(), bodies_.view(from),
                                     bodies_.view(to), grid_.view());
