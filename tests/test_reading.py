@@ -85,7 +85,7 @@ class Explanations(Reading):
         said = self.ballpit("diff", "02")
         for words in ("after 01_alpha", "new piece beta.cuh: doubles and halves.",
                       "to write: beta.one, beta.two", "tests/checks/check_02.cu",
-                      "-    return 1;", "+    return 2;"):
+                      "--- chapters/01_alpha/main.cu", "-    return 1;", "+    return 2;"):
             self.assertIn(words, said)
         self.assertIn("first chapter", self.ballpit("diff", "01"))
 
