@@ -27,6 +27,13 @@ inline HoleTable& hostHoles() {
     return table;
 }
 
+/// Called with the id when a hole is reached on the CPU for the first time; none by default. For
+/// checks: a hole that was met before a crash is known although the program is gone.
+inline void (*&holeListener())(const char* id) {
+    static void (*listener)(const char* id) = nullptr;
+    return listener;
+}
+
 #ifdef __CUDACC__
 static __device__ HoleTable deviceHoles;
 #endif

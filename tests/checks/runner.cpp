@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "common/error.h"
+#include "common/hole.cuh"
 #include "tests/checks/check.h"
 
 namespace ballpit::check {
@@ -96,7 +98,13 @@ json resultEvent(const Check& check, const Report& report, const std::string& st
 class Run {
 public:
     Run(const Request& request, const std::function<std::vector<std::string>()>& reachedHoles)
-        : request_(request), reachedHoles_(reachedHoles), log_(request.events) {}
+        : request_(request), reachedHoles_(reachedHoles), log_(request.events) {
+        // At once, not after the check: an open hole may well lead to a crash.
+        current_ = this;
+        holeListener() = [](const char* id) { current_->tellHole(id); };
+    }
+    ~Run() { holeListener() = nullptr; }
+    Run(const Run&) = delete;
 
     VerdictCode all(const std::string& chapter, const std::vector<Check>& checks) {
         std::vector<Device> devices = devicesFor(request_.device);
@@ -147,15 +155,21 @@ private:
     }
 
     void tellHoles() {
-        for (const std::string& id : reachedHoles_()) {
-            codes_.insert(todo);
-            if (holes_.insert(id).second) log_.write({{"event", "hole"}, {"id", id}});
-        }
+        for (const std::string& id : reachedHoles_()) tellHole(id);
     }
 
+    /// Kernels on several threads may meet holes at the same time.
+    void tellHole(const std::string& id) {
+        const std::lock_guard lock(holesMutex_);
+        codes_.insert(todo);
+        if (holes_.insert(id).second) log_.write({{"event", "hole"}, {"id", id}});
+    }
+
+    static inline Run* current_ = nullptr;
     const Request& request_;
     const std::function<std::vector<std::string>()>& reachedHoles_;
     Log log_;
+    std::mutex holesMutex_;
     std::set<std::string> holes_;
     std::set<VerdictCode> codes_;
     bool pictureDrawn_ = false;
