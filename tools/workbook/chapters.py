@@ -26,9 +26,9 @@ class Chapter:
 
     @property
     def solutions(self):
-        """The finished pieces that have holes: what a student works on."""
+        """The finished pieces with markers: what a student works on, or looks at (chapter 00)."""
         folder = ROOT / "solutions" / self.folder
-        return [file for file in sorted(folder.glob("*.*h")) if "//@hole " in file.read_text()]
+        return [file for file in sorted(folder.glob("*.*h")) if "//@" in file.read_text()]
 
     def pieces(self):
         """The parsed solutions, in file order."""

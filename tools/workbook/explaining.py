@@ -121,7 +121,13 @@ def next_steps(verdict):
     reports = verdict.failed + verdict.crashes + ([verdict.timeout] if verdict.timeout else [])
     check = reports[0]["id"]
     if not check:
-        return [f"hint:  ./ballpit hint {verdict.chapter}"]
+        return [help_with(verdict.chapter)]
     seed = f" --seed {verdict.seed}" if verdict.seed is not None else ""
     return [f"again: ./ballpit check {verdict.chapter} --case {check}{seed}{verdict.options}",
-            f"why:   ./ballpit explain {check}", f"hint:  ./ballpit hint {verdict.chapter}"]
+            f"why:   ./ballpit explain {check}", help_with(verdict.chapter)]
+
+
+def help_with(label):
+    """Hints are there for holes; a chapter without holes can only be as it was at the start."""
+    command = "hint:  ./ballpit hint" if chapters.find(label).holes() else "back:  ./ballpit reset"
+    return f"{command} {label}"

@@ -15,7 +15,8 @@ def register(commands):
 
 def reset_files(args):
     chapter = find(args.chapter)
-    holes.require_any(chapter, "nothing to reset")
+    if not chapter.solutions:
+        raise InputError(f"chapter {chapter.label} has no file of yours: there is nothing to reset")
     wanted = holes.named(chapter, args.hole).id if args.hole else None
     changed = 0
     for solution, piece in zip(chapter.solutions, chapter.pieces()):
