@@ -30,23 +30,22 @@ int run(const Options& options) {
     TwoOrders orders(options.device, scene);
     const bool same = orders.touching(asTheyCame) == orders.touching(byCell);
     Spheres balls = orders.download(byCell);
-    const std::vector<std::uint32_t> ids = orders.idsByCell();
-    std::vector<Vec3> slots;
-    for (const std::uint32_t id : ids) {
-        const float share = static_cast<float>(slots.size()) / static_cast<float>(options.count);
-        slots.push_back(balls.positions.at(id));
-        balls.colors.at(id) = {0.1f + 0.85f * share, 0.45f, 0.9f - 0.8f * share};
+    const std::vector<std::uint32_t> ids = orders.ids(byCell);
+    for (std::size_t slot = 0; slot < ids.size(); ++slot) {
+        const float share = static_cast<float>(slot) / static_cast<float>(options.count);
+        balls.colors.at(ids[slot]) = {0.1f + 0.85f * share, 0.45f, 0.9f - 0.8f * share};
     }
     Findings findings("04 reorder");
     findings.add("count", std::int64_t{options.count});
-    findings.add("step in memory before m", meanStep(scene.spheres.positions));
-    findings.add("step in memory after m", meanStep(slots));
+    findings.add("step in memory before m", meanStep(balls.positions, orders.ids(asTheyCame)));
+    findings.add("step in memory after m", meanStep(balls.positions, ids));
     findings.add("bytes moved for a ball", static_cast<std::int64_t>(bytesMovedPerBody()));
     findings.add("same touching balls", same ? "yes" : "NO");
     findings.add("order hash", hashText(wordHash(ids)));
     findings.add("state hash", hashText(stateHash(balls)));
-    findings.list("before", scene.spheres.positions);
-    findings.list("after", slots);
+    findings.list("positions", balls.positions);
+    findings.list("ids", ids);
+    findings.list("cells", orders.cells());
     if (options.time) addTimes(findings, options, orders);
     findings.print(options.json);
     showSpheres(options, scene.bounds, balls);

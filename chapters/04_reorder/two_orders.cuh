@@ -30,11 +30,12 @@ HD inline void countTouching(int i, GridView grid, View<const std::uint32_t> pla
     counts[i] = count - 1;  // it touches itself
 }
 
-/// Mean distance in m from the ball of one slot to that of the next.
-inline double meanStep(const std::vector<Vec3>& slots) {
+/// Mean distance in m from the ball in one slot to the ball in the next.
+inline double meanStep(const std::vector<Vec3>& positions, const std::vector<std::uint32_t>& ids) {
     double sum = 0.0;
-    for (std::size_t k = 1; k < slots.size(); ++k) sum += length(slots[k] - slots[k - 1]);
-    return sum / static_cast<double>(std::max<std::size_t>(2, slots.size()) - 1);
+    for (std::size_t slot = 1; slot < ids.size(); ++slot)
+        sum += length(positions.at(ids[slot]) - positions.at(ids[slot - 1]));
+    return sum / static_cast<double>(std::max<std::size_t>(2, ids.size()) - 1);
 }
 
 enum class MemoryOrder { asTheyCame, byCell };
@@ -95,9 +96,12 @@ public:
         bodies_.commit(copies(order));
         return bodies_.download();
     }
-    std::vector<std::uint32_t> idsByCell() {
-        return bodies_.idsInMemoryOrder(copies(MemoryOrder::byCell));
+    /// The ball in each slot.
+    std::vector<std::uint32_t> ids(MemoryOrder order) {
+        return bodies_.idsInMemoryOrder(copies(order));
     }
+    /// The cell of each slot, by cell.
+    std::vector<std::uint32_t> cells() const { return grid_.sortedHashes.download(); }
 
 private:
     static RigidBodySystem::Copies copies(MemoryOrder order) {
