@@ -1,8 +1,5 @@
-// Chapter 02's executable: which cell is each ball in? Balls of one cell get one colour.
+// Chapter 02's executable: which cell is each ball in? Cells that touch get different colours.
 #include "02_grid_hash/grid_hash.cuh"
-
-#include <algorithm>
-#include <map>
 
 #include "common/film.h"
 #include "common/findings.h"
@@ -12,23 +9,21 @@
 #include "common/timing.h"
 
 using namespace ballpit;
+constexpr Bounds world{{-4, -3, -2}, {4, 3, 2}};
+constexpr float cellSize = 2, r = 0.15f;
 
-namespace {
-
-constexpr Bounds world{{-6, -6, -6}, {6, 6, 6}};
-constexpr float cellSize = 1.5f, radius = 0.3f;
-
-Spheres makeBalls(int count, std::uint64_t seed) {
+/// The eight balls of the lesson, then random ones.
+static std::vector<Vec4> makeBalls(int count, std::uint64_t seed) {
+    std::vector<Vec4> balls{{-3, -2, -1, r}, {-0.5f, -2, -1, r}, {0.5f, -2, -1, r}, {3, 2, -1, r},
+                            {1, 0, 1, r},    {1.5f, 0.5f, 1, r}, {3, 2, 1, r},      {-5, 0, 1, r}};
+    balls.resize(static_cast<std::size_t>(count));
     Random random(seed);
-    Spheres spheres;
-    for (int k = 0; k < count; ++k) spheres.add(random.uniformIn(world), {}, radius, 1.0f, 1.0f);
-    return spheres;
+    for (std::size_t k = 8; k < balls.size(); ++k) balls[k] = withW(random.uniformIn(world), r);
+    return balls;
 }
 
-int run(const Options& options) {
-    Spheres spheres = makeBalls(options.count, options.seed);
-    std::vector<Vec4> balls;
-    for (const Vec3 p : spheres.positions) balls.push_back(withW(p, radius));
+static int run(const Options& options) {
+    const std::vector<Vec4> balls = makeBalls(options.count, options.seed);
     UniformGrid grid(options.device, world, cellSize, options.count);
     DeviceBuffer<Vec4> positions(options.device, balls.size(), "positions");
     DeviceBuffer<StepStatus> status(options.device, 1, "status");
@@ -41,30 +36,25 @@ int run(const Options& options) {
     };
     hashAll();
     const std::vector<std::uint32_t> hashes = grid.hashes.download();
-    std::map<std::uint32_t, int> population;
-    for (const std::uint32_t hash : hashes) ++population[hash];
-    int fullest = 0;
-    for (const auto& [cell, balls] : population) fullest = std::max(fullest, balls);
-    // Multiplied, so that cells that are neighbours get different colours.
-    for (std::size_t k = 0; k < hashes.size(); ++k)
-        spheres.colors[k] = paletteColor(hashes[k] * 2654435761u >> 16);
-
-    Findings findings("02 grid_hash: " + std::to_string(options.count) + " balls");
-    findings.add("cells", static_cast<std::int64_t>(grid.cellCount()));
-    findings.add("occupied cells", static_cast<std::int64_t>(population.size()));
-    findings.add("balls in the fullest cell", std::int64_t{fullest});
+    Spheres spheres;
+    for (std::size_t k = 0; k < balls.size(); ++k) {
+        const Int3 cell = cellFromHash(grid.resolution, hashes[k]);
+        const int shade = 3 * (cell.x & 1) + 6 * (cell.y & 1) + 4 * (cell.z & 1);
+        spheres.add(xyz(balls[k]), {}, r, 1, 1, paletteColor(static_cast<std::size_t>(shade)));
+    }
+    Findings findings("02 grid_hash");
+    findings.add("count", std::int64_t{options.count});
+    findings.add("cells", std::int64_t(grid.cellCount()));
     findings.add("balls outside the world", std::int64_t{status.download()[0].outside});
     findings.add("state hash", hashText(wordHash(hashes)));
+    findings.list("positions", spheres.positions);
+    findings.list("hashes", hashes);
     if (options.time) findings.add("milliseconds", medianMilliseconds(options.device, 31, hashAll));
     findings.print(options.json);
     showSpheres(options, world, spheres);
     return exitOk;
 }
 
-}  // namespace
-
 int main(int argc, char** argv) {
-    Options defaults;
-    defaults.count = 1000;
-    return runChapter(argc, argv, "Which cell of the grid is each ball in?", defaults, run);
+    return runChapter(argc, argv, "Which cell of the grid is each ball in?", {.count = 4000}, run);
 }

@@ -10,12 +10,13 @@
 
 namespace ballpit {
 
-/// Which cell along one axis? -1 below the grid, `resolution` above it (or NaN: -1).
-/// `coordinate` and `origin` in m. floorf, not a cast: a cast rounds -0.5 up into the grid.
+/// Which cell along one axis? 0 to resolution - 1 in the grid, -1 below it, `resolution` above it.
+/// A coordinate on a face belongs to the cell above; NaN gives -1. `coordinate` and `origin` in m.
 HD inline int cellAlongAxis(float coordinate, float origin, float inverseCellSize, int resolution) {
-    //@hole hash.axis lines=3 "Which cell along one axis? -1 below the grid, resolution above it"
+    //@hole hash.axis lines=3 "The cell along one axis, or -1, or resolution"
     //@starter TODO_HOLE("hash.axis");
     //@starter return 0;
+    // Not a cast: that rounds -0.5 up, into the grid.
     const float cell = floorf((coordinate - origin) * inverseCellSize);
     const float below = -1.0f, above = static_cast<float>(resolution);
     // Clamped while still a float: converting a float that no int can hold is undefined.
@@ -23,12 +24,14 @@ HD inline int cellAlongAxis(float coordinate, float origin, float inverseCellSiz
     //@end
 }
 
+//@show cell_of
 /// The cell of a position; one step outside the grid for positions outside of it.
 HD inline Int3 cellOf(const GridView& grid, Vec3 position) {
     return {cellAlongAxis(position.x, grid.origin.x, grid.inverseCellSize, grid.resolution.x),
             cellAlongAxis(position.y, grid.origin.y, grid.inverseCellSize, grid.resolution.y),
             cellAlongAxis(position.z, grid.origin.z, grid.inverseCellSize, grid.resolution.z)};
 }
+//@end
 
 /// The nearest of the indices 0 to count - 1.
 HD inline int clampIndex(int i, int count) {
@@ -50,7 +53,7 @@ HD inline bool isSameCell(Int3 a, Int3 b) { return a.x == b.x && a.y == b.y && a
 
 /// 1-D number of a cell inside the grid: x runs fastest, so the cells of a row are neighbours.
 HD inline std::uint32_t cellHash(Int3 resolution, Int3 cell) {
-    //@hole hash.number lines=1 "From cell coordinates to one number: x runs fastest, z slowest"
+    //@hole hash.number lines=1 "Cell coordinates to one number: x runs fastest, z slowest"
     //@starter TODO_HOLE("hash.number");
     //@starter return 0;
     return static_cast<std::uint32_t>((cell.z * resolution.y + cell.y) * resolution.x + cell.x);
@@ -75,7 +78,7 @@ HD inline Int3 cellFromHash(Int3 resolution, std::uint32_t hash) {
 HD inline void computeGridHash(int i, GridView grid, View<const Vec4> positions,
                                View<std::uint32_t> hashes, View<std::uint32_t> indices,
                                View<StepStatus> status) {
-    //@hole hash.write lines=5 "Hash body i, write hash and slot, count it if it is outside"
+    //@hole hash.write lines=5 "Write body i's hash and slot; count it if it is outside"
     //@starter TODO_HOLE("hash.write");
     const Int3 cell = cellOf(grid, xyz(positions[i]));
     const Int3 clamped = clampToGrid(grid, cell);
