@@ -20,6 +20,7 @@ HD inline void countTouching(int i, GridView grid, View<const std::uint32_t> pla
     const Int3 low = clampToGrid(grid, {cell.x - 1, cell.y - 1, cell.z - 1});
     const Int3 high = clampToGrid(grid, {cell.x + 1, cell.y + 1, cell.z + 1});
     std::uint32_t count = 0;
+    //@show search
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y) {
             const SlotRange row = slotsOfRow(grid, cellHash(grid.resolution, {low.x, y, z}),
@@ -27,6 +28,7 @@ HD inline void countTouching(int i, GridView grid, View<const std::uint32_t> pla
             for (std::uint32_t k = row.begin; k < row.end; ++k)
                 if (spheresTouch(mine, positions[places[k]])) ++count;
         }
+    //@end
     counts[i] = count - 1;  // it touches itself
 }
 

@@ -26,11 +26,13 @@ HD void countAround(int i, GridView grid, View<const std::uint32_t> sortedHashes
         for (int y = low.y; y <= high.y; ++y) {
             const std::uint32_t first = cellHash(grid.resolution, {low.x, y, z});
             const std::uint32_t last = cellHash(grid.resolution, {high.x, y, z});
+            //@show loads
             if constexpr (byRows)
                 count += lengthOf(slotsOfRow(grid, first, last));
             else
                 for (std::uint32_t one = first; one <= last; ++one)
                     count += lengthOf(slotsOfRow(grid, one, one));
+            //@end
         }
     counts[i] = count;
 }

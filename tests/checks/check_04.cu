@@ -3,8 +3,8 @@
 
 #include "02_grid_hash/grid_hash.cuh"
 #include "common/algorithms.h"
-#include "tests/checks/check_04_bodies.cuh"
 #include "tests/checks/canvas.h"
+#include "tests/checks/check_04_bodies.cuh"
 
 using namespace ballpit;
 using namespace ballpit::check;
@@ -14,28 +14,28 @@ namespace {
 constexpr Bounds room{{0, 0, 0}, {12, 12, 12}};
 constexpr int counts[] = {0, 1, 2, 33, 255, 256, 257, 1000};
 
-/// Five balls in a row of ten cells of 1 m. By cell: ball 3, then 0 and 4, then 1, then 2.
+/// The lesson's five balls. By cell: ball 1, then 4, then 0, then 2 and 3.
 //@show five_balls
 const Bodies fiveBalls{
-    // x, y, z, radius       velocity, 1 / mass     e     id
-    {{2.5f, 0.5f, 0.5f, 0.4f}, {1, 0, 0, 1.0f}, 0.9f, 0},  // cell 2
-    {{7.5f, 0.5f, 0.5f, 0.3f}, {2, 0, 0, 2.0f}, 0.8f, 1},  // cell 7
-    {{9.5f, 0.5f, 0.5f, 0.2f}, {3, 0, 0, 4.0f}, 0.7f, 2},  // cell 9
-    {{0.5f, 0.5f, 0.5f, 0.5f}, {4, 0, 0, 0.5f}, 0.6f, 3},  // cell 0
-    {{2.9f, 0.5f, 0.5f, 0.1f}, {5, 0, 0, 8.0f}, 0.5f, 4},  // cell 2 as well
+    // x, y, z, radius     vx, vy, vz, 1/mass    e     id
+    {{3.1f, 1.5f, 2.0f, 0.5f}, {1, 0, 0, 1.0f}, 0.9f, 0},  // in cell 33
+    {{1.2f, 0.5f, 0.4f, 0.4f}, {2, 0, 0, 2.0f}, 0.8f, 1},  // in cell 5
+    {{2.6f, 2.5f, 2.7f, 0.3f}, {3, 0, 0, 4.0f}, 0.7f, 2},  // in cell 42
+    {{2.9f, 2.6f, 2.5f, 0.2f}, {4, 0, 0, 0.5f}, 0.6f, 3},  // in cell 42, too
+    {{2.4f, 2.7f, 0.6f, 0.1f}, {5, 0, 0, 8.0f}, 0.5f, 4},  // in cell 10
 };
-const Order sortedFive{3, 0, 4, 1, 2};
+const Order sortedFive{1, 4, 0, 2, 3};
 //@end
 
 // ---- the checks
 
 void byHand(Report& report) {
     const Bodies got = gathered(report.device, sortedFive, fiveBalls);
-    const Bodies expected{{{0.5f, 0.5f, 0.5f, 0.5f}, {4, 0, 0, 0.5f}, 0.6f, 3},
-                          {{2.5f, 0.5f, 0.5f, 0.4f}, {1, 0, 0, 1.0f}, 0.9f, 0},
-                          {{2.9f, 0.5f, 0.5f, 0.1f}, {5, 0, 0, 8.0f}, 0.5f, 4},
-                          {{7.5f, 0.5f, 0.5f, 0.3f}, {2, 0, 0, 2.0f}, 0.8f, 1},
-                          {{9.5f, 0.5f, 0.5f, 0.2f}, {3, 0, 0, 4.0f}, 0.7f, 2}};
+    const Bodies expected{{{1.2f, 0.5f, 0.4f, 0.4f}, {2, 0, 0, 2.0f}, 0.8f, 1},
+                          {{2.4f, 2.7f, 0.6f, 0.1f}, {5, 0, 0, 8.0f}, 0.5f, 4},
+                          {{3.1f, 1.5f, 2.0f, 0.5f}, {1, 0, 0, 1.0f}, 0.9f, 0},
+                          {{2.6f, 2.5f, 2.7f, 0.3f}, {3, 0, 0, 4.0f}, 0.7f, 2},
+                          {{2.9f, 2.6f, 2.5f, 0.2f}, {4, 0, 0, 0.5f}, 0.6f, 3}};
     if (!requireSame(report, got, expected)) guessMistake(report, sortedFive, fiveBalls, got);
 }
 
@@ -44,7 +44,7 @@ void again(Report& report) {
     const Bodies inCells = dealt(sortedFive, fiveBalls);
     const Order next{1, 2, 0, 4, 3};
     const Bodies got = gathered(report.device, next, inCells);
-    const std::vector<std::uint32_t> ids{0, 4, 3, 2, 1};
+    const std::vector<std::uint32_t> ids{4, 0, 1, 3, 2};
     for (std::size_t k = 0; k < ids.size(); ++k)
         if (got[k].id != ids[k])
             report.fail("id in slot " + text(k) + " after the second sort", text(got[k].id),
@@ -65,12 +65,12 @@ std::vector<T> returned(Device device, const std::vector<std::uint32_t>& ids,
 }
 
 void back(Report& report) {
-    const std::vector<std::uint32_t> inSlots{50, 10, 20, 30, 40}, expected{10, 30, 40, 50, 20};
+    const std::vector<std::uint32_t> inSlots{20, 50, 10, 30, 40}, expected{10, 20, 30, 40, 50};
     const auto body = [](std::size_t k) { return "value of body " + text(k); };
     const auto got = returned(report.device, sortedFive, inSlots);
     if (!sameElements(report, got, expected, body))
         report.guess({{"a gather for a scatter: slot i must give its value to body ids[i]", [&] {
-                           return got == std::vector<std::uint32_t>{30, 50, 40, 10, 20};
+                           return got == std::vector<std::uint32_t>{50, 40, 20, 10, 30};
                        }}});
 }
 

@@ -13,25 +13,22 @@ def gather(run):
     ids, cells = found["ids"], found["cells"]
     cell_of = dict(zip(ids, cells))
     color_of = dict(zip(sorted(set(cells)), COLORS))
-    left, width, top, bottom = 186, 108, 66, 236
-    figure = Figure(760, 318, "Five slots of memory before and after: an arrow leads to each new "
+    left, width, top, bottom = 186, 108, 50, 200
+    figure = Figure(760, 324, "Five slots of memory before and after: an arrow leads to each new "
                     "slot from the old slot that holds its ball; the cells rise from left to right")
     figure.text(20, top + 34, "from", anchor="start", code=True, bold=True, size=16)
     figure.text(20, bottom + 34, "to", anchor="start", code=True, bold=True, size=16)
-    figure.text(20, 164, "sortedIndices", anchor="start", code=True, size=14)
+    figure.text(20, bottom + 81, "sortedIndices", anchor="start", code=True, bold=True, size=14)
     for slot in range(len(ids)):
         x = left + width * slot
         figure.text(x + 46, top - 12, f"slot {slot}", fill=INK, size=13)
-        figure.text(x + 46, bottom + 74, f"slot {slot}", fill=INK, size=13)
+        figure.text(x + 46, bottom + 81, ids[slot], 18, color_of[cells[slot]], bold=True)
+        figure.text(x + 46, bottom + 110, f"slot {slot}", fill=INK, size=13)
         source = ids[slot]  # as they came, ball k lies in slot k
         color = color_of[cell_of[source]]
         figure.arrow(left + width * source + 46, top + 58, x + 46, bottom - 4, color, 2.5, 10)
         for ball, y in ((slot, top), (source, bottom)):
             draw_ball(figure, x, y, ball, cell_of[ball], color_of[cell_of[ball]])
-    for slot, source in enumerate(ids):
-        x = left + width * slot + 46
-        figure.circle(x, 204, 13, fill=PAPER, stroke=FAINT)
-        figure.text(x, 209, source, bold=True)
     return figure.svg()
 
 

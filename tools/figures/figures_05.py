@@ -64,9 +64,10 @@ def draw_example(figure, first, found, left):
     begin, end = found["starts"][left], found["ends"][right]
     figure.text(x1, y + 36, f"cells {left} to {right}: start of {left} is {begin}, end of {right} "
                 f"is {end}, so slots {begin} to {end - 1}", fill=RED, anchor="start")
-    figure.text(16, y + 72, "bold: an occupied cell    plain: an empty one that an occupied cell "
-                "answers for    grey: cleared, and never asked together with a ball", size=13,
-                anchor="start")
+    for x, words, bold, fill in ((16, "bold: occupied", True, INK),
+                                 (160, "plain: empty, an occupied cell answers for it", False, INK),
+                                 (480, "grey: as it was cleared", False, FAINT)):
+        figure.text(x, y + 72, words, size=13, fill=fill, anchor="start", bold=bold)
 
 
 FIGURES = {"cells": cells}
