@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/device.h"
 #include "common/hd.h"
 #ifdef __CUDACC__
 #include "common/cuda_check.h"
