@@ -37,7 +37,8 @@ double medianMilliseconds(Device device, int repeats, Prepare prepare, Work work
 
 template <class Work>
 double medianMilliseconds(Device device, int repeats, Work work) {
-    return medianMilliseconds(device, repeats, [] {}, work);
+    const auto nothing = [] {};
+    return medianMilliseconds(device, repeats, nothing, work);
 }
 
 }  // namespace ballpit
