@@ -1,5 +1,4 @@
-// Chapter 00: a first kernel, finished. It sets balls on a hill in spirals, as a sunflower its
-// seeds.
+// Chapter 00: a first kernel, finished. It sets balls on a hill in spirals, as in a sunflower.
 #pragma once
 
 #include "common/buffer.cuh"

@@ -67,6 +67,9 @@ void eightByHand(Report& report) {
         if (!isNear(ball.y - ball.w, 1.7f * (1.0f - share)))
             report.fail("ball " + text(k) + " of 8, metres from the floor to its lowest point",
                         text(ball.y - ball.w), text(1.7f * (1.0f - share)));
+        if (!isNear(ball.w, 0.6f + 0.15f * share))
+            report.fail("ball " + text(k) + " of 8, its radius in m", text(ball.w),
+                        text(0.6f + 0.15f * share));
     }
     if (!isNear(placed.balls[0].x, 1.0f) || !isNear(placed.balls[0].z, 0.0f))
         report.fail("ball 0 of 8, where it begins", text(xyz(placed.balls[0])), "x = 1, z = 0");
@@ -239,7 +242,9 @@ int main(int argc, char** argv) {
           "A whole turn is 2^32 steps. Both functions work on the fraction of a turn, with + - * "
           "alone.",
           sineByHand},
-         {"hello.eight", "Of eight balls, ball k lies sqrt(2k + 1) m from the middle",
+         {"hello.eight",
+          "Of eight balls, ball k lies sqrt(2k + 1) m from the middle, as high and large as by "
+          "hand",
           "Eight balls can be worked out by hand. What is wrong for eight is wrong for a million.",
           eightByHand},
          {"hello.each", "A launch for n balls writes elements 0 to n - 1, and no other",

@@ -91,6 +91,7 @@ inline bool allNear(const std::vector<Vec4>& got, const std::vector<Vec4>& expec
 inline std::string text(Vec4 ball) { return text(xyz(ball)) + " of radius " + text(ball.w); }
 
 inline void guessMistake(Report& report, const std::vector<Vec4>& got, std::uint64_t seed) {
+    if (got.size() < 8) return;  // one or two balls fit too many explanations
     const auto equals = [&](const Formula& formula) {
         return [&, formula] { return allNear(got, oracle(int(got.size()), seed, formula)); };
     };
