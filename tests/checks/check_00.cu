@@ -243,9 +243,9 @@ int main(int argc, char** argv) {
           "alone.",
           sineByHand},
          {"hello.eight",
-          "Of eight balls, ball k lies sqrt(2k + 1) m from the middle, as high and large as by "
-          "hand",
-          "Eight balls can be worked out by hand. What is wrong for eight is wrong for a million.",
+          "Eight balls are as worked out by hand: ball k lies sqrt(2k + 1) m from the middle",
+          "What is wrong for eight balls is wrong for a million, and eight fit on a sheet of "
+          "paper.",
           eightByHand},
          {"hello.each", "A launch for n balls writes elements 0 to n - 1, and no other",
           "Index i writes element i: that is the whole contract between a kernel and its launch. "
