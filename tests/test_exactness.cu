@@ -4,6 +4,8 @@
 #include <omp.h>
 #endif
 
+#include <cmath>
+
 #include "tests/support.h"
 
 using namespace ballpit;
@@ -111,4 +113,25 @@ TEST_CASE("the racy exhibit depends on the order, the default does not", "[exact
     const std::vector<std::uint64_t> gathered = hashes(ResponseMethod::massSplit);
     CHECK(racy[0] != racy[1]);
     CHECK(gathered[0] == gathered[1]);
+}
+
+TEST_CASE("the atomic exhibit keeps momentum, but its last bits depend on the order",
+          "[exactness]") {
+    Scene scene = makeUniform(2000, 1);
+    // Walls out of reach, so that none takes momentum.
+    scene.bounds = {scene.bounds.lower - Vec3{20, 20, 20}, scene.bounds.upper + Vec3{20, 20, 20}};
+    SimulatorSettings settings = test::settingsFor(scene, Device::cpu);
+    settings.response = ResponseMethod::atomic;
+    const Vec3d before = measure(scene.spheres, scene.bounds, scene.gravity, scene.dt).momentum;
+    std::vector<std::uint64_t> hashes;
+    for (const LaunchOrder order : {LaunchOrder::forward, LaunchOrder::reversed}) {
+        const test::InOrder inOrder(order);
+        const Spheres end = test::simulate(scene, settings, 10);
+        const Metrics after = measure(end, scene.bounds, scene.gravity, scene.dt);
+        const Vec3d p = after.momentum;
+        CHECK(length(Vec3d{p.x - before.x, p.y - before.y, p.z - before.z}) <
+              1e-6 * std::sqrt(2.0 * 2000.0 * after.kineticEnergy));
+        hashes.push_back(stateHash(end));
+    }
+    CHECK(hashes[0] != hashes[1]);
 }

@@ -2,15 +2,20 @@
 #pragma once
 
 #include "common/bodies.cuh"
+//@starter #include "common/hole.cuh"
 
 namespace ballpit {
 
 /// From the centre of the ball in slot a to that of b, m, of any length. Coincident centres have no
 /// direction: the ball with the smaller id is then taken to lie below, so that both agree.
 HD inline Vec3 lineOfCentres(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
+    //@hole impulse.line lines=3 "From centre a to centre b; if they coincide, up or down by id"
+    //@starter TODO_HOLE("impulse.line");
+    //@starter return {0.0f, 1.0f, 0.0f};
     const Vec3 line = xyz(bodies.positions[b]) - xyz(bodies.positions[a]);
     if (lengthSquared(line) > 0.0f) return line;
     return {0.0f, bodies.ids[a] < bodies.ids[b] ? 1.0f : -1.0f, 0.0f};
+    //@end
 }
 
 /// How fast b leaves a along their line, times its length, m^2/s: negative while they approach.
@@ -30,11 +35,15 @@ struct Contact {
 HD inline Contact contactBetween(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
     const Vec4 sphereA = bodies.positions[a], sphereB = bodies.positions[b];
     const Vec3 line = lineOfCentres(a, b, bodies);
+    //@hole impulse.contact lines=5 "Normal, overlap, and speed of separation, from the line"
+    //@starter TODO_HOLE("impulse.contact");
+    //@starter return {line, 0.0f, 0.0f};
     const float inverseLength = 1.0f / length(line);
     const Vec3 normal = inverseLength * line;
     const float distance = dot(xyz(sphereB) - xyz(sphereA), normal);
     return {normal, sphereA.w + sphereB.w - distance,
             separationAlong(line, bodies.velocities[a], bodies.velocities[b]) * inverseLength};
+    //@end
 }
 
 /// Of two different balls the duller one decides how they bounce.
@@ -44,7 +53,44 @@ HD inline float combinedRestitution(float a, float b) { return minimum(a, b); }
 ///     J = -(1 + e) v_n / (1/m_a + 1/m_b)    with v_n the separation speed, v_n < 0.
 /// `inverseMassSum` is the denominator; mass splitting passes larger terms for busy balls.
 HD inline float impulseAlongNormal(float separation, float restitution, float inverseMassSum) {
+    //@hole impulse.along_normal lines=1 "The impulse J along the normal"
+    //@starter TODO_HOLE("impulse.along_normal");
+    //@starter return 0.0f;
     return -(1.0f + restitution) * separation / inverseMassSum;
+    //@end
+}
+
+/// The push on b along the normal (a gets the opposite), kg m. Divided by each ball's mass it gives
+/// the two ways in m, which together are the penetration: the lighter ball gives way more.
+HD inline float pushAlongNormal(float penetration, float inverseMassSum) {
+    //@hole impulse.push lines=1 "The push that takes the overlap away"
+    //@starter TODO_HOLE("impulse.push");
+    //@starter return 0.0f;
+    return penetration / inverseMassSum;
+    //@end
+}
+
+/// What a contact does to its second ball; the first gets the opposite of both.
+struct PairEffect {
+    Vec3 impulse;  ///< N s: times 1/m, a change of velocity
+    Vec3 push;     ///< kg m: times 1/m, a change of position
+};
+
+/// The effect of one contact as if there were no other. No impulse unless the balls approach: those
+/// that leave each other would be pulled back.
+HD inline PairEffect effectOfPair(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
+    const float inverseMassSum = bodies.velocities[a].w + bodies.velocities[b].w;
+    const float restitution = combinedRestitution(bodies.restitutions[a], bodies.restitutions[b]);
+    const Contact contact = contactBetween(a, b, bodies);
+    //@hole impulse.pair lines=5 "Impulse (only if they approach) and push, as vectors"
+    //@starter TODO_HOLE("impulse.pair");
+    //@starter return {};
+    const float push = pushAlongNormal(contact.penetration, inverseMassSum);
+    float impulse = 0.0f;
+    if (contact.separation < 0.0f)
+        impulse = impulseAlongNormal(contact.separation, restitution, inverseMassSum);
+    return {impulse * contact.normal, push * contact.normal};
+    //@end
 }
 
 }  // namespace ballpit

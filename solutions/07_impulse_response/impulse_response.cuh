@@ -16,6 +16,7 @@
 #include "07_impulse_response/contact.cuh"
 #include "07_impulse_response/contact_lists.cuh"
 #include "common/atomics.cuh"
+//@starter #include "common/hole.cuh"
 #include "common/response.h"
 
 namespace ballpit {
@@ -72,15 +73,19 @@ HD inline void computePairImpulse(int thread, BodiesView bodies, ImpulseView vie
         const ContactCounts countsA = view.counts[a], countsB = view.counts[b];
         const Contact contact = contactBetween(a, b, bodies);
 
-        float impulse = 0.0f;
+        float impulse = 0.0f, push = 0.0f;
+        //@hole response.split lines=8 "As one contact, but each inverse mass times its contacts"
+        //@starter TODO_HOLE("response.split");
         if (contact.separation < 0.0f)
             impulse = impulseAlongNormal(
                 contact.separation,
                 combinedRestitution(bodies.restitutions[a], bodies.restitutions[b]),
                 countsA.approaching() * inverseMassA + countsB.approaching() * inverseMassB);
+        push = pushAlongNormal(contact.penetration, countsA.touching() * inverseMassA +
+                                                        countsB.touching() * inverseMassB);
+        //@end
         view.normalsAndImpulses[k] = withW(contact.normal, impulse);
-        view.pushes[k] = contact.penetration /
-                         (countsA.touching() * inverseMassA + countsB.touching() * inverseMassB);
+        view.pushes[k] = push;
     });
 }
 
@@ -93,8 +98,11 @@ HD inline void collisionResponse(int i, ResponseRound round, ImpulseView view) {
     Vec3 velocityChange, positionChange;
     visitContacts(i, view.contacts, [&](std::uint32_t k, float sign) {
         const Vec4 pair = view.normalsAndImpulses[k];
+        //@hole response.gather lines=2 "Add pair k's share in this body's velocity and position"
+        //@starter TODO_HOLE("response.gather");
         velocityChange += (sign * (pair.w * inverseMass)) * xyz(pair);
         positionChange += (sign * (view.pushes[k] * inverseMass)) * xyz(pair);
+        //@end
     });
     view.contacts.firstIncoming[i] = noPair;
     view.counts[i] = ContactCounts{};

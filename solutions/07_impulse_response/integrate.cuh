@@ -3,6 +3,7 @@
 
 #include "common/atomics.cuh"
 #include "common/bodies.cuh"
+//@starter #include "common/hole.cuh"
 
 namespace ballpit {
 
@@ -18,6 +19,8 @@ struct MotionSettings {
 /// `position` in m, `velocity` in m/s; `lower` and `upper` already shrunk by the radius.
 HD inline void bounceOffWalls(float& position, float& velocity, float lower, float upper,
                               float restitution) {
+    //@hole motion.walls lines=7 "Back onto the wall; bounce only if it moves on outwards"
+    //@starter TODO_HOLE("motion.walls");
     if (position < lower) {
         position = lower;
         if (velocity < 0.0f) velocity = -restitution * velocity;
@@ -25,6 +28,7 @@ HD inline void bounceOffWalls(float& position, float& velocity, float lower, flo
         position = upper;
         if (velocity > 0.0f) velocity = -restitution * velocity;
     }
+    //@end
 }
 
 /// Semi-implicit Euler for body i: v += g dt, v *= 1 - damping dt, x += v dt; then the walls.
@@ -35,9 +39,13 @@ HD inline void integrate(int i, BodiesView from, BodiesView to, MotionSettings m
     const Vec4 moving = from.velocities[i];
     const float radius = sphere.w, restitution = from.restitutions[i];
 
+    //@hole motion.integrate lines=3 "Semi-implicit Euler: velocity first, then position with it"
+    //@starter TODO_HOLE("motion.integrate");
+    //@starter Vec3 velocity = xyz(moving), position = xyz(sphere);
     Vec3 velocity = xyz(moving) + motion.dt * motion.gravity;
     velocity = (1.0f - motion.damping * motion.dt) * velocity;
     Vec3 position = xyz(sphere) + motion.dt * velocity;
+    //@end
 
     const Bounds& walls = motion.walls;
     bounceOffWalls(position.x, velocity.x, walls.lower.x + radius, walls.upper.x - radius,

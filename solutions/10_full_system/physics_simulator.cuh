@@ -14,6 +14,7 @@
 
 #include "03_sort/sort.cuh"
 #include "06_broad_phase/broad_phase.cuh"
+#include "07_impulse_response/atomic_response.cuh"
 #include "07_impulse_response/impulse_response.cuh"
 #include "07_impulse_response/racy_response.cuh"
 #include "10_full_system/simulator_settings.h"
@@ -78,9 +79,9 @@ public:
     static std::size_t predictedBytes(const SimulatorSettings& s) {
         const auto count = static_cast<std::size_t>(s.objects);
         const std::size_t response =
-            s.response == ResponseMethod::racy
-                ? 0
-                : ImpulseResponse::predictedBytes(count, s.firstPairCapacity());
+            s.response == ResponseMethod::massSplit
+                ? ImpulseResponse::predictedBytes(count, s.firstPairCapacity())
+                : 0;
         return RigidBodySystem::predictedBytes(count) +
                UniformGrid::predictedBytes(s.bounds, s.cellSize, count) +
                PairList::predictedBytes(count, s.firstPairCapacity()) + response;
@@ -150,6 +151,7 @@ private:
 
     static std::unique_ptr<Response> makeResponse(const SimulatorSettings& s) {
         if (s.response == ResponseMethod::racy) return std::make_unique<RacyResponse>(s.device);
+        if (s.response == ResponseMethod::atomic) return std::make_unique<AtomicResponse>(s.device);
         return std::make_unique<ImpulseResponse>(s.device, static_cast<std::size_t>(s.objects),
                                                  s.firstPairCapacity());
     }

@@ -13,7 +13,8 @@ namespace ballpit {
 
 enum class ResponseMethod {
     massSplit,  ///< gathered impulses, the default
-    racy        ///< the original's in-place kernel: an exhibit, not repeatable
+    racy,       ///< the original's in-place kernel: an exhibit, not repeatable
+    atomic      ///< summed by float atomics: an exhibit, repeatable but for rounding
 };
 
 struct SimulatorSettings {

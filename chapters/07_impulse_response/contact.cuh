@@ -1,0 +1,81 @@
+// Chapter 07: the physics of one contact between two balls.
+#pragma once
+
+#include "common/bodies.cuh"
+#include "common/hole.cuh"
+
+namespace ballpit {
+
+/// From the centre of the ball in slot a to that of b, m, of any length. Coincident centres have no
+/// direction: the ball with the smaller id is then taken to lie below, so that both agree.
+HD inline Vec3 lineOfCentres(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
+    // ---- hole impulse.line (about 3 lines): From centre a to centre b; if they coincide, up or down by id
+    TODO_HOLE("impulse.line");
+    return {0.0f, 1.0f, 0.0f};
+    // ---- end of impulse.line
+}
+
+/// How fast b leaves a along their line, times its length, m^2/s: negative while they approach.
+/// Velocities: x, y, z in m/s. The sign needs neither a root nor a division.
+HD inline float separationAlong(Vec3 line, Vec4 velocityA, Vec4 velocityB) {
+    return dot(xyz(velocityB) - xyz(velocityA), line);
+}
+
+/// Where two overlapping balls press on each other.
+struct Contact {
+    Vec3 normal;        ///< unit vector from the first ball to the second
+    float penetration;  ///< m: how far they overlap along the normal
+    float separation;   ///< m/s: how fast they leave each other; negative while they approach
+};
+
+/// The contact of the balls in slots a and b.
+HD inline Contact contactBetween(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
+    const Vec4 sphereA = bodies.positions[a], sphereB = bodies.positions[b];
+    const Vec3 line = lineOfCentres(a, b, bodies);
+    // ---- hole impulse.contact (about 5 lines): Normal, overlap, and speed of separation, from the line
+    TODO_HOLE("impulse.contact");
+    return {line, 0.0f, 0.0f};
+    // ---- end of impulse.contact
+}
+
+/// Of two different balls the duller one decides how they bounce.
+HD inline float combinedRestitution(float a, float b) { return minimum(a, b); }
+
+/// The impulse on b along the normal (a gets the opposite), N s:
+///     J = -(1 + e) v_n / (1/m_a + 1/m_b)    with v_n the separation speed, v_n < 0.
+/// `inverseMassSum` is the denominator; mass splitting passes larger terms for busy balls.
+HD inline float impulseAlongNormal(float separation, float restitution, float inverseMassSum) {
+    // ---- hole impulse.along_normal (about 1 line): The impulse J along the normal
+    TODO_HOLE("impulse.along_normal");
+    return 0.0f;
+    // ---- end of impulse.along_normal
+}
+
+/// The push on b along the normal (a gets the opposite), kg m. Divided by each ball's mass it gives
+/// the two ways in m, which together are the penetration: the lighter ball gives way more.
+HD inline float pushAlongNormal(float penetration, float inverseMassSum) {
+    // ---- hole impulse.push (about 1 line): The push that takes the overlap away
+    TODO_HOLE("impulse.push");
+    return 0.0f;
+    // ---- end of impulse.push
+}
+
+/// What a contact does to its second ball; the first gets the opposite of both.
+struct PairEffect {
+    Vec3 impulse;  ///< N s: times 1/m, a change of velocity
+    Vec3 push;     ///< kg m: times 1/m, a change of position
+};
+
+/// The effect of one contact as if there were no other. No impulse unless the balls approach: those
+/// that leave each other would be pulled back.
+HD inline PairEffect effectOfPair(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
+    const float inverseMassSum = bodies.velocities[a].w + bodies.velocities[b].w;
+    const float restitution = combinedRestitution(bodies.restitutions[a], bodies.restitutions[b]);
+    const Contact contact = contactBetween(a, b, bodies);
+    // ---- hole impulse.pair (about 5 lines): Impulse (only if they approach) and push, as vectors
+    TODO_HOLE("impulse.pair");
+    return {};
+    // ---- end of impulse.pair
+}
+
+}  // namespace ballpit
