@@ -10,10 +10,10 @@
 
 namespace ballpit {
 
-/// Which cell along one axis? -1 below the grid, `resolution` above it (or NaN: -1).
-/// `coordinate` and `origin` in m. floorf, not a cast: a cast rounds -0.5 up into the grid.
+/// Which cell along one axis? 0 to resolution - 1 in the grid, -1 below it, `resolution` above it.
+/// A coordinate on a face belongs to the cell above; NaN gives -1. `coordinate` and `origin` in m.
 HD inline int cellAlongAxis(float coordinate, float origin, float inverseCellSize, int resolution) {
-    // ---- hole hash.axis (about 3 lines): Which cell along one axis? -1 below the grid, resolution above it
+    // ---- hole hash.axis (about 3 lines): The cell along one axis, or -1, or resolution
     TODO_HOLE("hash.axis");
     return 0;
     // ---- end of hash.axis
@@ -45,7 +45,7 @@ HD inline bool isSameCell(Int3 a, Int3 b) { return a.x == b.x && a.y == b.y && a
 
 /// 1-D number of a cell inside the grid: x runs fastest, so the cells of a row are neighbours.
 HD inline std::uint32_t cellHash(Int3 resolution, Int3 cell) {
-    // ---- hole hash.number (about 1 line): From cell coordinates to one number: x runs fastest, z slowest
+    // ---- hole hash.number (about 1 line): Cell coordinates to one number: x runs fastest, z slowest
     TODO_HOLE("hash.number");
     return 0;
     // ---- end of hash.number
@@ -64,7 +64,7 @@ HD inline Int3 cellFromHash(Int3 resolution, std::uint32_t hash) {
 HD inline void computeGridHash(int i, GridView grid, View<const Vec4> positions,
                                View<std::uint32_t> hashes, View<std::uint32_t> indices,
                                View<StepStatus> status) {
-    // ---- hole hash.write (about 5 lines): Hash body i, write hash and slot, count it if it is outside
+    // ---- hole hash.write (about 5 lines): Write body i's hash and slot; count it if it is outside
     TODO_HOLE("hash.write");
     // ---- end of hash.write
 }

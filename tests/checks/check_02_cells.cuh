@@ -61,14 +61,13 @@ public:
                 outside()};
     }
 
-    /// How many are counted as outside when threads count at the same time, and how many should be.
-    std::pair<std::uint32_t, std::uint32_t> countContended(const std::vector<Vec3>& allOutside) {
-        prepare(allOutside);
-        const int count = static_cast<int>(allOutside.size());
-        const int launches = launchUntilContended<computeGridHash>(
-            device_, count, view_, View<const Vec4>(positions_.view()), grid_.hashes.view(),
-            grid_.indices.view(), status_.view());
-        return {outside(), static_cast<std::uint32_t>(launches) * std::uint32_t(count)};
+    /// How many are counted as outside when threads count at the same time.
+    std::pair<std::uint32_t, Contention> countContended(const std::vector<Vec3>& points) {
+        prepare(points);
+        const Contention contention = launchUntilContended<computeGridHash>(
+            device_, static_cast<int>(points.size()), view_, View<const Vec4>(positions_.view()),
+            grid_.hashes.view(), grid_.indices.view(), status_.view());
+        return {outside(), contention};
     }
 
 private:
@@ -86,6 +85,12 @@ private:
     DeviceBuffer<StepStatus> status_;
     GridView view_;
 };
+
+/// What no threads can disturb.
+inline std::uint32_t countedByOneThread(const World& world, const std::vector<Vec3>& points) {
+    const Threads one(LaunchOrder::forward, 1);
+    return Hasher(Device::cpu, world, points.size())(points).outside;
+}
 
 /// Where a ball is put when it is alone.
 struct Place {

@@ -11,6 +11,15 @@
 
 namespace ballpit::check {
 
+/// That this program may use; 1 without OpenMP.
+inline int processorCount() {
+#ifdef _OPENMP
+    return omp_get_num_procs();
+#else
+    return 1;
+#endif
+}
+
 /// Reads and writes in two steps: what another thread adds in between is lost.
 HD inline void takeBait(std::uint32_t& bait) {
 #ifdef __CUDA_ARCH__
@@ -28,12 +37,18 @@ HD void withBait(int i, View<std::uint32_t> bait, Args... args) {
     takeBait(bait[0]);
 }
 
-/// Launches `body` for `count` indices again and again, until threads got in each other's way.
-/// Gives up after two seconds: with one core they never do. Returns the number of launches.
+/// How often a kernel was launched, and whether threads got in each other's way meanwhile.
+struct Contention {
+    int launches;
+    bool happened;
+};
+
+/// Launches `body` for `count` indices again and again until threads get in each other's way. On a
+/// busy machine that may take seconds; with one core it never happens.
 template <auto body, class... Args>
-int launchUntilContended(Device device, int count, Args... args) {
-    constexpr std::int64_t enoughLost = 2000;
-    constexpr double longest = 2000;  // ms
+Contention launchUntilContended(Device device, int count, Args... args) {
+    constexpr std::int64_t enoughLost = 1000;
+    const double longest = device == Device::cuda || processorCount() > 1 ? 15000 : 0;  // ms
     const Threads threads(LaunchOrder::forward, 2);
     DeviceBuffer<std::uint32_t> bait(device, 1, "bait");
     bait.fill(0);
@@ -41,7 +56,8 @@ int launchUntilContended(Device device, int count, Args... args) {
     for (int launches = 1;; ++launches) {
         launch<withBait<body, Args...>>(device, count, bait.view(), args...);
         const std::int64_t lost = std::int64_t{launches} * count - bait.download()[0];
-        if (lost >= enoughLost || milliseconds() - start > longest) return launches;
+        if (lost >= enoughLost) return {launches, true};
+        if (milliseconds() - start > longest) return {launches, false};
     }
 }
 
