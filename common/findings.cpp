@@ -11,6 +11,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr std::size_t longestList = 10'000;
+
 /// Six significant digits, as printf's %g.
 std::string readable(double value) {
     char text[32];
@@ -30,12 +32,13 @@ void Findings::add(const std::string& name, const std::string& value) {
     entries_.push_back({name, value, json(value).dump()});
 }
 void Findings::list(const std::string& name, const std::vector<std::uint32_t>& values) {
-    entries_.push_back({name, "", json(values).dump()});
+    if (values.size() <= longestList) entries_.push_back({name, "", json(values).dump()});
 }
 void Findings::list(const std::string& name, const std::vector<double>& values) {
-    entries_.push_back({name, "", json(values).dump()});
+    if (values.size() <= longestList) entries_.push_back({name, "", json(values).dump()});
 }
 void Findings::list(const std::string& name, const std::vector<Vec3>& values) {
+    if (values.size() > longestList) return;
     json rows = json::array();
     for (const Vec3 v : values) rows.push_back({v.x, v.y, v.z});
     entries_.push_back({name, "", rows.dump()});

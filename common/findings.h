@@ -18,7 +18,7 @@ public:
     void add(const std::string& name, double value);
     void add(const std::string& name, const std::string& value);
 
-    /// Lists go into the JSON alone; figures are drawn from them.
+    /// Lists go into the JSON alone, for figures; one of more than 10 000 elements is left out.
     void list(const std::string& name, const std::vector<std::uint32_t>& values);
     void list(const std::string& name, const std::vector<double>& values);
     void list(const std::string& name, const std::vector<Vec3>& values);

@@ -45,7 +45,9 @@ void addSimulationOptions(CLI::App& app, Options& o) {
 
 void addChapterOptions(CLI::App& app, Options& o) {
     app.add_option("--frames", o.frames, "frames of the video")->capture_default_str();
-    app.add_flag("--time", o.time, "measure the piece's speed as well");
+    app.add_flag("--time", o.time,
+                 "measure the piece's speed as well, for " + std::to_string(o.timedCount) +
+                     " balls unless --count says otherwise");
 }
 
 /// How many letters must be changed, added or removed to turn a into b.
@@ -137,6 +139,7 @@ int parseAndRun(CLI::App& app, int argc, char** argv, Options& options, std::str
         std::cerr << "error: " << oneLine(app, error, argc, argv) << '\n';
         return exitBadInput;
     }
+    if (options.time && app["--count"]->count() == 0) options.count = options.timedCount;
     options.device = device.empty()     ? defaultDevice()
                      : device == "cuda" ? Device::cuda
                                         : Device::cpu;

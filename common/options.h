@@ -27,6 +27,7 @@ struct Options {
     int width = 1920, height = 1080;  ///< of frames, pixels
     bool json = false;                ///< the summary as JSON
     bool time = false;                ///< measure speed (chapters)
+    int timedCount = 200'000;         ///< balls with --time, where --count is not given
 };
 
 /// The scene that the options describe: made by name or read from the CSV, then changed by the
