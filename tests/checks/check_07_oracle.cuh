@@ -73,7 +73,7 @@ inline Example flatScene(std::uint64_t seed) {
         add(place + aside, random.uniformIn(upToOne), 3, 0.4f);
     }
     for (const Vec3 place : {Vec3{0.6f, 1.9f, 0}, Vec3{1.3f, 1.6f, 0}, Vec3{1.25f, 2.35f, 0}})
-        add(place, 2.0f * (Vec3{1.05f, 1.95f, 0} - place), 1, 1);
+        add(place, 0.8f * (Vec3{1.05f, 1.95f, 0} - place), 1, 1);
     example.pairs = findPairsOnHost(example.balls);
     return example;
 }
