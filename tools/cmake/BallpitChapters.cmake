@@ -26,6 +26,14 @@ endfunction()
 # What students' files are part of, in one target.
 add_custom_target(starters)
 
+# A target that looks for pieces in the folder of forwarding headers of chapter `label` first.
+function(ballpit_student target label)
+    ballpit_target(${target} STUDENT ${ARGN})
+    target_include_directories(${target} BEFORE PRIVATE ${PROJECT_BINARY_DIR}/pieces/${label})
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+    add_dependencies(starters ${target})
+endfunction()
+
 # NN_name and check_NN from the student's piece, and both again from the solution.
 function(ballpit_chapter folder)
     string(SUBSTRING ${folder} 0 2 label)
@@ -39,14 +47,8 @@ function(ballpit_chapter folder)
             ballpit_target(${main})
             ballpit_target(${check} CHECKED)
         else()
-            ballpit_target(${main} STUDENT)
-            ballpit_target(${check} CHECKED STUDENT)
-            set_target_properties(${main} ${check} PROPERTIES EXCLUDE_FROM_ALL ON)
-            add_dependencies(starters ${main} ${check})
-            foreach(target ${main} ${check})
-                target_include_directories(${target} BEFORE PRIVATE
-                                           ${PROJECT_BINARY_DIR}/pieces/${label})
-            endforeach()
+            ballpit_student(${main} ${label})
+            ballpit_student(${check} ${label} CHECKED)
         endif()
         target_link_libraries(${main} PRIVATE ballpit_film)
         target_link_libraries(${check} PRIVATE ballpit_checks)

@@ -148,21 +148,21 @@ def set_mine(chapter, mine):
                 header.write_text(line)
 
 
-def compile_variant(chapter, name, texts):
-    """Compiles the chapter's checks with other pieces: `texts` maps a finished piece (path) to its
-    changed text. The normal targets stay as they are. Returns (executable or None, log).
+def compile_variant(target, label, name, texts):
+    """Compiles a student's target of the chapter `label` with other pieces: `texts` maps a piece
+    ("02_grid_hash/grid_hash.cuh") to its changed text. The normal targets stay as they are. Returns
+    (executable or None, log).
 
-    Build check_NN_reference before: it makes the libraries that this links."""
-    target = f"check_{chapter.label}"
-    variant = folder() / "variants" / chapter.label / name
+    Build its reference before: that makes the libraries which this links."""
+    variant = folder() / "variants" / label / name
     shutil.rmtree(variant, ignore_errors=True)
     for path, text in texts.items():
-        piece = variant / "pieces" / chapter.folder / Path(path).name
+        piece = variant / "pieces" / path
         piece.parent.mkdir(parents=True, exist_ok=True)
         piece.write_text(text)
     log = variant / "build.log"
     for command in _commands(target):
-        command = command.replace(str(pieces_folder(chapter)), str(variant / "pieces"))
+        command = command.replace(str(folder() / "pieces" / label), str(variant / "pieces"))
         command = command.replace(f"CMakeFiles/{target}.dir/", f"{variant}/objects/")
         command = command.replace(f" bin/{target} ", f" {variant}/{target} ")
         for output in re.findall(r" -o (\S+)", command):

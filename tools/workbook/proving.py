@@ -28,27 +28,30 @@ def register(commands):
                              metavar="S", help="seconds that one check may take")
 
 
-def run_all(args, jobs_of):
-    """Runs `jobs_of(chapter)`: (name, function -> problem or ""), two at a time; prints a line for
-    each and a summary. Exit code 1 if there was a problem."""
+def run_all(args, jobs_of, jobs_of_all=()):
+    """Runs `jobs_of(chapter)`: (name, function -> problem or ""), two at a time, and where no
+    chapter is named `jobs_of_all`; prints a line for each and a summary. Exit code 1 if there was a
+    problem."""
     wanted = [checking.find_checked(word) for word in args.chapters] or [
         chapter for chapter in chapters.all_chapters() if chapter.solutions]
     if not wanted:
         raise ToolError("there is no chapter with pieces, so nothing is shown")
-    planned = [(chapter, name, job) for chapter in wanted for name, job in jobs_of(chapter)]
+    planned = [(chapter.label, name, job) for chapter in wanted for name, job in jobs_of(chapter)]
+    if not args.chapters:
+        planned += [("10", name, job) for name, job in jobs_of_all]
     outcomes = []
     for chapter in wanted:
         build.build([f"check_{chapter.label}_reference"])
         build.set_mine(chapter, {chapter})
     with ThreadPoolExecutor(AT_ONCE) as pool:
-        jobs = [(chapter, name, pool.submit(job)) for chapter, name, job in planned]
+        jobs = [(label, name, pool.submit(job)) for label, name, job in planned]
         try:
-            for chapter, name, job in jobs:
+            for label, name, job in jobs:
                 problem = job.result()
-                outcomes.append({"chapter": chapter.label, "name": name, "problem": problem})
+                outcomes.append({"chapter": label, "name": name, "problem": problem})
                 if not args.json:
                     mark = paint("no", "red") if problem else paint("ok", "green")
-                    print(f"{mark}  {chapter.label} {name}" + (f": {problem}" if problem else ""),
+                    print(f"{mark}  {label} {name}" + (f": {problem}" if problem else ""),
                           flush=True)
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
@@ -69,9 +72,10 @@ def verdict_on(program, chapter, args, options=(), picture=None):
     return verdict
 
 
-def compiled(chapter, name, texts):
-    """(executable, "") or (None, why not)."""
-    program, log = build.compile_variant(chapter, name, texts)
+def compiled(target, label, name, texts):
+    """(executable, "") or (None, why not). `texts`: a solution's path -> the changed text."""
+    program, log = build.compile_variant(target, label, name, {
+        f"{solution.parent.name}/{solution.name}": text for solution, text in texts.items()})
     if program:
         return program, ""
     error = compile_errors.find(log, [])
@@ -81,7 +85,8 @@ def compiled(chapter, name, texts):
 # ---- prove ---------------------------------------------------------------------------------------
 
 def prove_command(args):
-    return run_all(args, lambda chapter: proofs(chapter, args))
+    whole = ("the whole system from filled starters ends in the same state", whole_system)
+    return run_all(args, lambda chapter: proofs(chapter, args), [whole])
 
 
 def proofs(chapter, args):
@@ -99,11 +104,32 @@ def proofs(chapter, args):
 def proof(chapter, args, opened):
     """What is wrong when exactly the holes of `opened` are open? "" if nothing is."""
     solved = {hole.id for hole in chapter.holes()} - opened
-    texts = {solution: markers.starter(piece, solved)
-             for solution, piece in zip(chapter.solutions, chapter.pieces())}
+    texts = starters(chapter, solved)
     name = f"open_{'_'.join(sorted(opened))}" if len(opened) == 1 else f"open_{len(opened)}"
-    program, problem = compiled(chapter, name, texts)
+    program, problem = compiled(f"check_{chapter.label}", chapter.label, name, texts)
     return problem or judge(verdict_on(program, chapter, args), opened)
+
+
+def starters(chapter, solved):
+    """Each piece's starter with the holes `solved` filled."""
+    return {solution: markers.starter(piece, solved)
+            for solution, piece in zip(chapter.solutions, chapter.pieces())}
+
+
+def whole_system():
+    """gravity_fall from every chapter's starter with all holes filled, against the solutions'."""
+    build.build(["gravity_fall"])
+    texts = {}
+    for chapter in chapters.all_chapters():
+        texts |= starters(chapter, {hole.id for hole in chapter.holes()})
+    program, problem = compiled("gravity_fall_mine", "10", "all_filled", texts)
+    if problem:
+        return problem
+    hashes = []
+    for executable in (program, build.executable("gravity_fall")):
+        command = [str(executable), "--frames", "200", "--device", "cpu", "--json"]
+        hashes.append(json.loads(processes.output_of(command) or "{}").get("state_hash"))
+    return "" if hashes[0] and hashes[0] == hashes[1] else f"the hashes are {hashes}"
 
 
 def judge(verdict, opened):
@@ -149,7 +175,8 @@ def hunts(chapter, args):
 
 def hunt(chapter, mutant, texts, args):
     """Why the mutant was not rejected as it must be; "" if it was."""
-    program, problem = compiled(chapter, f"mutant_{mutant.name}", texts)
+    program, problem = compiled(f"check_{chapter.label}", chapter.label,
+                                f"mutant_{mutant.name}", texts)
     if problem:
         return problem
     verdict = verdict_on(program, chapter, args)
