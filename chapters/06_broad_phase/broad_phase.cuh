@@ -38,8 +38,9 @@ struct SearchRanges {
 /// less its radius. All five are fetched before any is searched, since memory answers late.
 HD inline SearchRanges rangesAfter(int i, const GridView& grid,
                                    View<const std::uint32_t> sortedHashes) {
-    const Int3 cell = cellFromHash(grid.resolution, sortedHashes[i]);
-    // ---- hole pairs.ranges (about 3 lines): The rest of its own row, and four rows
+    const std::uint32_t hash = sortedHashes[i];
+    const Int3 cell = cellFromHash(grid.resolution, hash);
+    // ---- hole pairs.ranges (about 4 lines): The rest of its own row, and four rows
     TODO_HOLE("pairs.ranges");
     return {};
     // ---- end of pairs.ranges

@@ -27,9 +27,9 @@ HD inline SlotRange rowBeside(const GridView& grid, Int3 cell, int dy, int dz) {
     const Int3 there{cell.x, cell.y + dy, cell.z + dz};
     if (there.y < 0 || there.y >= grid.resolution.y || there.z >= grid.resolution.z) return {0, 0};
     const std::uint32_t middle = cellHash(grid.resolution, there);
-    const std::uint32_t left = cell.x > 0 ? middle - 1 : middle;
-    const std::uint32_t right = cell.x + 1 < grid.resolution.x ? middle + 1 : middle;
-    return slotsOfRow(grid, left, right);
+    const std::uint32_t left = cell.x > 0 ? 1 : 0;
+    const std::uint32_t right = cell.x + 1 < grid.resolution.x ? 1 : 0;
+    return slotsOfRow(grid, middle - left, middle + right);
     //@end
 }
 
@@ -44,11 +44,13 @@ struct SearchRanges {
 /// less its radius. All five are fetched before any is searched, since memory answers late.
 HD inline SearchRanges rangesAfter(int i, const GridView& grid,
                                    View<const std::uint32_t> sortedHashes) {
-    const Int3 cell = cellFromHash(grid.resolution, sortedHashes[i]);
-    //@hole pairs.ranges lines=3 "The rest of its own row, and four rows"
+    const std::uint32_t hash = sortedHashes[i];
+    const Int3 cell = cellFromHash(grid.resolution, hash);
+    //@hole pairs.ranges lines=4 "The rest of its own row, and four rows"
     //@starter TODO_HOLE("pairs.ranges");
     //@starter return {};
-    const SlotRange rest{static_cast<std::uint32_t>(i) + 1u, rowBeside(grid, cell, 0, 0).end};
+    const std::uint32_t right = cell.x + 1 < grid.resolution.x ? 1 : 0;
+    const SlotRange rest{static_cast<std::uint32_t>(i) + 1u, grid.cellEnds[hash + right]};
     return {{rest, rowBeside(grid, cell, 1, 0), rowBeside(grid, cell, -1, 1),
              rowBeside(grid, cell, 0, 1), rowBeside(grid, cell, 1, 1)}};
     //@end
