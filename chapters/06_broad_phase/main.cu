@@ -28,15 +28,16 @@ int run(const Options& options) {
     const std::vector<Pair> pairs = search.pairs();
     const int seeker = search.slotInTheMiddle(world);
 
-    Findings findings("06 broad_phase: " + std::to_string(options.count) + " balls");
+    Findings findings("06 broad_phase");
+    findings.add("count", std::int64_t{options.count});
     findings.add("comparisons, naive", std::int64_t{options.count} * (options.count - 1) / 2);
     findings.add("candidates, grid", search.candidates());
     findings.add("touching pairs", static_cast<std::int64_t>(pairs.size()));
-    findings.add("state hash", hashText(wordHash(words(pairs))));
     findings.list("positions", search.inSlots(world.spheres.positions));
     findings.list("hashes", search.grid.hashes());
     findings.list("pairs", words(pairs));
     findings.add("seeker", std::int64_t{seeker});
+    findings.add("state hash", hashText(wordHash(words(pairs))));
     findings.list("runs", words(search.rangesOf(seeker).rows));
     if (options.time) addTimes(findings, options, world, search);
     findings.print(options.json);
