@@ -42,6 +42,9 @@ public:
     GridView view() { return grid_.view(); }
     View<const std::uint32_t> sortedHashes() { return grid_.sortedHashes.view(); }
     View<const Vec4> positions() { return bodies_.view(sorted).positions; }
+    /// What the kernels report: bodies outside, and pairs once a search has run.
+    View<StepStatus> status() { return status_.view(); }
+    std::uint32_t outside() const { return status_.download()[0].outside; }
 
     /// Which ball lies in each slot.
     std::vector<std::uint32_t> ids() { return bodies_.idsInMemoryOrder(sorted); }
