@@ -1,8 +1,6 @@
 // Chapter 01's executable: balls scattered on a table; those that touch another are red.
 #include "01_naive_collision/naive_collision.cuh"
 
-#include <algorithm>
-
 #include "common/film.h"
 #include "common/findings.h"
 #include "common/metrics.h"
@@ -10,6 +8,7 @@
 #include "common/timing.h"
 
 using namespace ballpit;
+
 namespace {
 
 int run(const Options& options) {
@@ -40,7 +39,8 @@ int run(const Options& options) {
     for (const auto [a, b] : list) touching.insert(touching.end(), {a, b});
     for (const std::uint32_t ball : touching) spheres.colors.at(ball) = {0.86f, 0.15f, 0.13f};
 
-    Findings findings("01 naive_collision: " + std::to_string(count) + " balls");
+    Findings findings("01 naive_collision");
+    findings.add("count", std::int64_t{count});
     findings.add("comparisons", std::int64_t{count} * (count - 1) / 2);
     findings.add("touching pairs", static_cast<std::int64_t>(list.size()));
     findings.add("state hash", hashText(wordHash(touching)));
@@ -56,5 +56,5 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return runChapter(argc, argv, "Which balls touch?", {.count = 120}, run);
+    return runChapter(argc, argv, "Which balls touch?", {.count = 1000}, run);
 }

@@ -162,4 +162,4 @@ class LogPlot:
 
 
 FIGURES = {"eight_balls": eight_balls, "growth": growth}
-PICTURES = {"table": ["--width", "960", "--height", "540"]}
+PICTURES = {"table": ["--count", "120", "--width", "960", "--height", "540"]}
