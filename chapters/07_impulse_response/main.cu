@@ -2,7 +2,6 @@
 #include "07_impulse_response/atomic_response.cuh"
 #include "07_impulse_response/examples.cuh"
 #include "07_impulse_response/impulse_response.cuh"
-#include "common/error.h"
 #include "common/film.h"
 #include "common/findings.h"
 #include "common/host_pairs.h"
@@ -32,7 +31,7 @@ static void tell(Findings& findings, const std::string& version, const Options& 
             many.balls.colors[k] = {0.9f, 0.1f, 0.1f};
     if (!options.time || version == "in warps") return;  // that one is staged, on one thread
     OneRound bodies(options.device, many.balls, many.pairs);
-    findings.add(version + ": milliseconds",
+    findings.add(version == "gathered" ? "milliseconds" : version + ": milliseconds",
                  medianMilliseconds(options.device, 31, [&] { response.resolve(bodies.round()); }));
 }
 
@@ -41,7 +40,8 @@ static int run(const Options& o) {
     Example many{scene.spheres, findPairsOnHost(scene.spheres)};
     many.balls.colors.assign(many.balls.count(), {0.7f, 0.7f, 0.75f});
     const std::size_t balls = many.balls.count() + 4, pairs = many.pairs.size() + 4;
-    Findings findings("07 impulse_response: " + std::to_string(o.count) + " balls, one round");
+    Findings findings("07 impulse_response: one round");
+    findings.add("count", std::int64_t{o.count});
     findings.list("two balls positions", twoBalls().balls.positions);
     findings.list("two balls before", twoBalls().balls.velocities);
     findings.list("pocket positions", pocketOfThree().balls.positions);
@@ -52,7 +52,7 @@ static int run(const Options& o) {
     tell(findings, "gathered", o, ImpulseResponse(o.device, balls, pairs), many);
     findings.print(o.json);
     showSpheres(o, scene.bounds, many.balls);
-    return exitOk;
+    return 0;
 }
 
 int main(int argc, char** argv) {
