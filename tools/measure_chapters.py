@@ -1,0 +1,166 @@
+"""Measures the tables of the lessons on this machine and writes them to docs/results/chapter_NN.csv.
+
+    python3 tools/measure_chapters.py [--cuda] [NN ...]
+
+Needs the reference executables (`cmake --build build/cpu-release`, or cuda-release). Every time is
+the median of five runs, each of them the median of many repeats. Rows of other machines stay.
+"""
+
+import argparse
+import csv
+import json
+import os
+import re
+import statistics
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+RUNS = 5
+
+MILLION = 1_000_000
+SIZES = {"cpu": [1000, 16384, 131072, MILLION], "cuda": [1000, 16384, 131072, MILLION, 8 * MILLION]}
+FEW = {"cpu": [1000, 4000, 16000, 32000], "cuda": [1000, 4000, 16000, 64000, 256000]}
+
+
+def digits(value, count=3):
+    """A number with so many significant digits, without an exponent."""
+    text = f"{value:.{count}g}"
+    return f"{float(text):.0f}" if "e" in text else text
+
+
+# For each table: the program, the sizes, the columns after machine, threads and balls, and their
+# values from what the program prints as JSON.
+
+def hello(d):
+    return [digits(d["milliseconds"]), digits(28e-6 * d["count"] / d["milliseconds"])]
+
+
+def naive(d):
+    return [d["comparisons"], digits(d["milliseconds"]),
+            digits(1e-6 * d["comparisons"] / d["milliseconds"])]
+
+
+def grid_hash(d):
+    return [digits(d["milliseconds"]), digits(24e-6 * d["count"] / d["milliseconds"])]
+
+
+def sort(d):
+    yours, library = d["milliseconds"], d["library_milliseconds"]
+    return [d["key_bits"], digits(yours), digits(library), digits(yours / library, 2)]
+
+
+def reorder(d):
+    plain, sorted_before = d["milliseconds"], d["milliseconds,_sorted_before"]
+    as_they_came, by_cell = d["search_ms,_as_they_came"], d["search_ms,_by_cell"]
+    moved = d["bytes_moved_for_a_ball"] * d["count"] * 1e-6  # MB
+    return [digits(plain), digits(moved / plain), digits(sorted_before),
+            digits(moved / sorted_before), digits(as_they_came), digits(by_cell),
+            digits(as_they_came / by_cell)]
+
+
+def cell_bounds(d):
+    cells, rows = d["search_ms,_cell_by_cell"], d["search_ms,_row_by_row"]
+    return [d["cells"], f"{100 * d['occupied_cells'] / d['cells']:.0f} %",
+            digits(d["milliseconds"]), digits(cells), digits(rows), digits(cells / rows)]
+
+
+def broad_phase(d):
+    naive_time = d.get("milliseconds,_naive")
+    return [d["comparisons,_naive"], d["candidates,_grid"], d["touching_pairs"],
+            digits(naive_time) if naive_time else "too long",
+            digits(d["milliseconds"] + d["milliseconds_to_build_the_grid"])]
+
+
+def response(d):
+    return [digits(d[name]) for name in ("in_place:_milliseconds", "atomic:_milliseconds",
+                                         "milliseconds")]
+
+
+TABLES = {
+    "00": ("00_hello_spheres", SIZES, ["ms", "GB/s written"], hello),
+    "01": ("01_naive_collision", FEW, ["comparisons", "ms", "comparisons a nanosecond"], naive),
+    "02": ("02_grid_hash", SIZES, ["ms", "GB/s"], grid_hash),
+    "03": ("03_sort", SIZES, ["key bits", "yours, ms", "library, ms", "ratio"], sort),
+    "04": ("04_reorder", SIZES, ["gather, ms", "GB/s", "sorted before, ms", "GB/s",
+                                 "search as they came, ms", "search by cell, ms", "gain"], reorder),
+    "05": ("05_cell_bounds", SIZES, ["cells", "occupied", "clear and bounds, ms",
+                                     "search cell by cell, ms", "search row by row, ms", "gain"],
+           cell_bounds),
+    "06": ("06_broad_phase", {"cpu": [100, 1000, 10000, 30000, 100000, MILLION],
+                              "cuda": [100, 1000, 10000, 30000, 100000, MILLION, 8 * MILLION]},
+           ["comparisons, naive", "comparisons, grid", "pairs", "naive, ms",
+            "grid and search, ms"], broad_phase),
+    "07": ("07_impulse_response", {"cpu": [1000, 100000], "cuda": [1000, 100000, MILLION]},
+           ["in place, ms", "atomic, ms", "gathered, ms"], response),
+}
+
+
+def measured(program, device, count, threads):
+    """What the program prints, with the median of the runs in each time."""
+    environment = {**os.environ, "OMP_PROC_BIND": "close", "OMP_PLACES": "cores"}
+    if threads:
+        environment["OMP_NUM_THREADS"] = str(threads)
+    command = [str(program), "--device", device, "--count", str(count), "--time", "--json"]
+    runs = [json.loads(subprocess.run(command, env=environment, capture_output=True, text=True,
+                                      check=True).stdout) for _ in range(RUNS)]
+    return {name: statistics.median(run[name] for run in runs)
+            if isinstance(value, (int, float)) else value for name, value in runs[0].items()}
+
+
+def output_of(command):
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
+
+
+def machine(device):
+    """(name in the first column, description)."""
+    if device == "cuda":
+        name = output_of(["nvidia-smi", "--query-gpu=name,driver_version", "--format=csv,noheader"])
+        return name.split(",")[0], f"{name.replace(', ', ', driver ')}"
+    model = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
+    compiler = output_of(["c++", "-dumpfullversion"])
+    return "CPU", f"{model[1]}, {os.cpu_count()} cores, c++ {compiler}"
+
+
+def update(chapter, device, build, thread_counts):
+    """Measures one table and writes it, with the other machines' rows as they were."""
+    program, sizes, columns, values = TABLES[chapter]
+    file = ROOT / "docs" / "results" / f"chapter_{chapter}.csv"
+    label, description = machine(device)
+    header = ["machine", "threads", "balls", *columns]
+    rows = []
+    for count in sizes[device]:
+        for threads in thread_counts:
+            found = measured(build / "bin" / f"{program}_reference", device, count, threads)
+            rows.append([label, threads or "", count, *values(found)])
+            print(chapter, *rows[-1], flush=True)
+    old = file.read_text().splitlines() if file.exists() else []
+    notes = [line for line in old if line.startswith("# ") and " commit " in line
+             and not line.startswith(f"# {label}: ")]
+    others = [row for row in csv.reader(line for line in old if not line.startswith("#"))
+              if row[0] not in ("machine", label) and len(row) == len(header)]
+    commit = output_of(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]) or "unknown"
+    with open(file, "w", newline="") as out:
+        out.write(f"# {program}_reference --device DEVICE --count BALLS --time; medians of {RUNS} "
+                  "runs, each the median of its repeats (tools/measure_chapters.py).\n")
+        out.writelines(f"{note}\n" for note in
+                       sorted([*notes, f"# {label}: {description}, commit {commit}."]))
+        csv.writer(out, lineterminator="\n").writerows(
+            [header, *sorted(rows + others, key=lambda row: row[0] != "CPU")])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("chapters", nargs="*", help="as 02 05 (default: all)")
+    parser.add_argument("--cuda", action="store_true", help="on the GPU")
+    args = parser.parse_args()
+    device = "cuda" if args.cuda else "cpu"
+    build = ROOT / "build" / f"{device}-release"
+    for chapter in args.chapters or TABLES:
+        if chapter not in TABLES:
+            parser.error(f"unknown chapter '{chapter}': known are {', '.join(TABLES)}")
+        update(chapter, device, build, [""] if args.cuda else [1, 2])
+
+
+if __name__ == "__main__":
+    main()
