@@ -81,9 +81,8 @@ void checkCuda(cudaError_t code, const char* call, std::source_location place) {
             " (likely cause: an index out of range in a kernel; run the checked build, "
             "preset cuda-debug, or compute-sanitizer)";
     if (code == cudaErrorMemoryAllocation) cause = " (likely cause: too many balls for this GPU)";
-    throw CudaError(std::string("CUDA error in ") + call + " at " + place.file_name() +
-                             ":" + std::to_string(place.line()) + ": " + cudaGetErrorString(code) +
-                             cause);
+    throw CudaError(std::string("CUDA error in ") + call + " at " + place.file_name() + ":" +
+                    std::to_string(place.line()) + ": " + cudaGetErrorString(code) + cause);
 }
 
 namespace {

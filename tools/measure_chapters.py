@@ -20,7 +20,7 @@ RUNS = 5
 
 MILLION = 1_000_000
 SIZES = {"cpu": [1000, 16384, 131072, MILLION], "cuda": [1000, 16384, 131072, MILLION, 8 * MILLION]}
-FEW = {"cpu": [1000, 4000, 16000, 32000], "cuda": [1000, 4000, 16000, 64000, 256000]}
+DOUBLED = {"cpu": [1000 * 2 ** k for k in range(7)], "cuda": [1000 * 2 ** k for k in range(10)]}
 
 
 def digits(value, count=3):
@@ -54,7 +54,8 @@ def reorder(d):
     plain, sorted_before = d["milliseconds"], d["milliseconds,_sorted_before"]
     as_they_came, by_cell = d["search_ms,_as_they_came"], d["search_ms,_by_cell"]
     moved = d["bytes_moved_for_a_ball"] * d["count"] * 1e-6  # MB
-    return [digits(plain), digits(moved / plain), digits(sorted_before),
+    held = 40e-6 * d["count"]  # MB: position, velocity, restitution, id
+    return [digits(held), digits(plain), digits(moved / plain), digits(sorted_before),
             digits(moved / sorted_before), digits(as_they_came), digits(by_cell),
             digits(as_they_came / by_cell)]
 
@@ -68,7 +69,7 @@ def cell_bounds(d):
 def broad_phase(d):
     naive_time = d.get("milliseconds,_naive")
     return [d["comparisons,_naive"], d["candidates,_grid"], d["touching_pairs"],
-            digits(naive_time) if naive_time else "too long",
+            digits(naive_time) if naive_time else "",
             digits(d["milliseconds"] + d["milliseconds_to_build_the_grid"])]
 
 
@@ -79,10 +80,10 @@ def response(d):
 
 TABLES = {
     "00": ("00_hello_spheres", SIZES, ["ms", "GB/s written"], hello),
-    "01": ("01_naive_collision", FEW, ["comparisons", "ms", "comparisons a nanosecond"], naive),
+    "01": ("01_naive_collision", DOUBLED, ["comparisons", "ms", "comparisons a nanosecond"], naive),
     "02": ("02_grid_hash", SIZES, ["ms", "GB/s"], grid_hash),
     "03": ("03_sort", SIZES, ["key bits", "yours, ms", "library, ms", "ratio"], sort),
-    "04": ("04_reorder", SIZES, ["gather, ms", "GB/s", "sorted before, ms", "GB/s",
+    "04": ("04_reorder", SIZES, ["MB", "gather, ms", "GB/s", "sorted before, ms", "GB/s",
                                  "search as they came, ms", "search by cell, ms", "gain"], reorder),
     "05": ("05_cell_bounds", SIZES, ["cells", "occupied", "clear and bounds, ms",
                                      "search cell by cell, ms", "search row by row, ms", "gain"],

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from figure import BLUE, FAINT, GREEN, INK, ORANGE, PURPLE, RED, Figure
 
-GROWTH = Path(__file__).resolve().parents[2] / "docs" / "results" / "chapter_01_growth.csv"
+TIMES = Path(__file__).resolve().parents[2] / "docs" / "results" / "chapter_01.csv"
 BLOCK = 3  # threads a block in the small example
 BLOCK_COLORS = (BLUE, PURPLE, GREEN)
 
@@ -91,24 +91,26 @@ def draw_numbers(figure, balls, pairs):
 
 def growth(run):
     """Time against count on logarithmic axes, from the measured table."""
-    lines = [line for line in GROWTH.read_text().splitlines() if line and line[0] != "#"]
-    rows = list(csv.DictReader(lines))
-    counts = [int(row["balls"]) for row in rows]
-    series = {name.removesuffix(", ms"): [float(row[name]) for row in rows]
-              for name in rows[0] if name.endswith(", ms")}
+    series = {}  # label: [(balls, ms)]
+    lines = [line for line in TIMES.read_text().splitlines() if line and line[0] != "#"]
+    for row in csv.DictReader(lines):
+        threads = row["threads"]
+        label = row["machine"] + (f", {threads} thread{'s' * (threads != '1')}" if threads else "")
+        series.setdefault(label, []).append((int(row["balls"]), float(row["ms"])))
     figure = Figure(640, 420, "Time of the search against the number of balls on logarithmic axes: "
                     "the lines rise with slope 2")
-    plot = LogPlot(figure, 90, 30, 380, 320, counts, [t for times in series.values() for t in times])
+    counts, times = zip(*(point for points in series.values() for point in points))
+    plot = LogPlot(figure, 90, 30, 380, 320, counts, times)
     plot.axes("balls", "ms")
-    for place, (name, times) in enumerate(series.items()):
+    for place, (name, measured) in enumerate(series.items()):
         color = (BLUE, ORANGE, GREEN, RED)[place % 4]
-        points = [plot.point(count, time) for count, time in zip(counts, times)]
+        points = [plot.point(count, time) for count, time in measured]
         figure.path(points, stroke=color, width=2.5)
         for x, y in points:
             figure.circle(x, y, 3.5, fill=color, stroke=color)
         plot.label(name, points[-1][1], color)
     first = next(iter(series.values()))
-    plot.slope_two(counts, first[-1] * 4)
+    plot.slope_two([count for count, _ in first], first[-1][1] * 4)
     return figure.svg()
 
 
