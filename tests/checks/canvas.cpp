@@ -22,7 +22,7 @@ void Canvas::blend(int x, int y, Vec3 color, float coverage) {
     for (std::size_t c = 0; c < 3; ++c) {
         const float before = frame_.rgb[pixel + c];
         const float mixed = before + share * (255.0f * channels[c] - before);
-        frame_.rgb[pixel + c] = static_cast<std::uint8_t>(mixed + 0.5f);
+        frame_.rgb[pixel + c] = static_cast<std::uint8_t>(std::lround(mixed));
     }
 }
 

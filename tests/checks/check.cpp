@@ -58,7 +58,7 @@ std::string text(Vec3 v) { return "(" + text(v.x) + ", " + text(v.y) + ", " + te
 std::string text(Int3 v) { return "(" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ")"; }
 std::string text(Pair p) { return "(" + text(p.first) + ", " + text(p.second) + ")"; }
 
-bool samePairs(Report& report, std::vector<Pair> got, std::vector<Pair> expected,
+bool samePairs(Report& report, const std::vector<Pair>& got, const std::vector<Pair>& expected,
                const std::function<std::string(Pair)>& describe) {
     std::map<Pair, std::pair<int, int>> times;  // pair: times got, times expected
     for (const Pair pair : got) ++times[pair].first;

@@ -104,7 +104,7 @@ bool sameElements(Report& report, const std::vector<T>& got, const std::vector<T
 
 /// Compares two sets of pairs, whatever their order: each expected pair once, and no other.
 /// `describe` adds to a pair what a student needs to see (where the two balls are). True if equal.
-bool samePairs(Report& report, std::vector<Pair> got, std::vector<Pair> expected,
+bool samePairs(Report& report, const std::vector<Pair>& got, const std::vector<Pair>& expected,
                const std::function<std::string(Pair)>& describe);
 
 }  // namespace ballpit::check

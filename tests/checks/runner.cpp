@@ -54,7 +54,8 @@ private:
             std::cout << "    " << std::string(failure["what"]) << ": got "
                       << std::string(failure["got"]) << ", expected "
                       << std::string(failure["expected"]) << '\n';
-        if (event["message"] != "") std::cout << "    " << std::string(event["message"]) << '\n';
+        const std::string message = event["message"];
+        if (!message.empty()) std::cout << "    " << message << '\n';
     }
 
     std::ofstream file_;
