@@ -40,13 +40,28 @@ class Proving(Authors):
         before = (self.root / "chapters/01_first/first.cuh").read_text()
         self.solve()
         lines = self.lines(0, "prove")
-        self.assertEqual(lines[-1], "10 ok, 0 failed")
+        self.assertEqual(lines[-1], "11 ok, 0 failed")
+        self.assertEqual(lines[-2], "ok  10 the whole system from filled starters ends in the same "
+                         "state")
         self.assertEqual(lines[:5], ["ok  01 the starter is TODO with all its holes",
                                      "ok  01 first.other alone is TODO",
                                      "ok  01 first.value alone is TODO",
                                      "ok  01 the starter with every hole filled is CORRECT",
                                      "ok  01 the solution is CORRECT"])
         self.assertNotEqual((self.root / "chapters/01_first/first.cuh").read_text(), before)
+
+    def test_a_whole_system_that_ends_otherwise_is_found(self):
+        # A finished file that still holds a TODO_HOLE outside any hole: no check of the fakes sees it.
+        file = self.root / "solutions/02_second/second.cuh"
+        file.write_text(file.read_text() + 'inline void more() { TODO_HOLE("second.more"); }\n')
+        lines = self.lines(1, "prove")
+        self.assertIn("no  10 the whole system from filled starters ends in the same state: the "
+                      "hashes are ['of 1 open', 'of 0 open']", lines)
+
+    def test_a_whole_system_without_a_state_is_no_success(self):
+        lines = self.lines(1, "prove", FAKE_STATELESS="1")
+        self.assertIn("no  10 the whole system from filled starters ends in the same state: the "
+                      "hashes are [None, None]", lines)
 
     def test_a_hole_that_no_check_reaches_is_found(self):
         self.change_solution('//@starter TODO_HOLE("first.other");',
