@@ -73,16 +73,20 @@ inline void addIds(const HoleTable& table, std::vector<std::string>& ids) {
         if (table.keys[place]) ids.emplace_back(table.ids[place]);
 }
 
-/// The ids of all holes reached on either machine. (In a build with CUDA: by the kernels of the
-/// source file that calls this.)
-inline std::vector<std::string> reachedHoles() {
+/// The ids of the holes reached on either machine since the last call. (In a build with CUDA: by
+/// the kernels of the source file that calls this.)
+inline std::vector<std::string> takeReachedHoles() {
     std::vector<std::string> ids;
     addIds(hostHoles(), ids);
+    hostHoles() = {};
 #ifdef __CUDACC__
     HoleTable table;
     // After a CUDA error the table cannot be read; the error itself is reported elsewhere.
-    if (cudaUsable() && cudaMemcpyFromSymbol(&table, deviceHoles, sizeof table) == cudaSuccess)
+    if (cudaUsable() && cudaMemcpyFromSymbol(&table, deviceHoles, sizeof table) == cudaSuccess) {
         addIds(table, ids);
+        table = {};
+        cudaMemcpyToSymbol(deviceHoles, &table, sizeof table);
+    }
 #endif
     return ids;
 }

@@ -1,4 +1,6 @@
 // Bodies that do not move, on a picture or seen from all sides.
+#include <iostream>
+
 #include "common/film.h"
 #include "common/progress.h"
 
@@ -14,6 +16,8 @@ void showSpheres(const Options& options, Bounds world, const Spheres& spheres) {
         film.walkAround(360.0f / static_cast<float>(frames));
     }
     film.finish();
+    for (const std::string& path : {options.png, options.out})
+        if (!path.empty()) std::cerr << "saved " << path << '\n';
 }
 
 }  // namespace ballpit

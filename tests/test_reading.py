@@ -79,6 +79,7 @@ class Explanations(Reading):
             self.assertIn(words, said)
 
     def test_an_unknown_check_gets_the_nearest(self):
+        self.assertIn("beta.right", self.ballpit("explain", "beta"))
         self.refuses("explain", "beta.rihgt", words=["'beta.rihgt'", "beta.right"])
 
     def test_diff_shows_files_pieces_and_main(self):

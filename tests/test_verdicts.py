@@ -36,10 +36,25 @@ class Verdicts(Workbook):
 
     def test_todo_names_places_and_tasks_and_counts_what_passes(self):
         hole = "{'event': 'hole', 'id': 'first.other'}, "
-        text = self.verdict("TODO", 10, ("a", "{}"), ("b", hole + WRONG), words=[
-            "chapters/01_first/first.cuh:10  first.other: Return two",
-            "1 of 2 checks passed already", "./ballpit hint 01 first.other"])
+        behind = WRONG.replace("{", "{'open': True, ", 1)
+        text = self.verdict("TODO", 10, ("a", "{}"), ("b", hole + behind), ("c", "{'open': True}"),
+                            words=["chapters/01_first/first.cuh:10  first.other: Return two",
+                                   "1 of 3 checks passed already", "./ballpit hint 01 first.other"])
         self.assertNotIn("looks like", text)
+
+    def test_a_filled_hole_that_is_wrong_shows_beside_an_open_one(self):
+        hole = "{'event': 'hole', 'id': 'first.other'}, "
+        behind = WRONG.replace("{", "{'open': True, ", 1)
+        text = self.verdict("TODO", 10, ("b", hole + behind), ("first.value", WRONG), words=[
+            "1 open hole", "wrong: first.value (cpu)", "looks like: a cast", "0 of 2 checks passed",
+            "./ballpit check 01 --case first.value", "./ballpit hint 01 first.value\n"])
+        self.assertNotIn("wrong: b", text)
+
+    def test_the_fourth_failure_and_those_behind_it_get_a_line_each(self):
+        text = self.verdict("WRONG", 13, *[(name, WRONG) for name in "abcde"], words=[
+            "wrong: c (cpu)", "also wrong", "  d (cpu)  cell 0: got 0, expected -1\n  e (cpu)"])
+        self.assertNotIn("wrong: d (cpu)", text)
+        self.assertIn("./ballpit hint 01 HOLE  (HOLE: first.value, first.other)", text)
 
     def test_wrong_shows_three_elements_a_guess_and_the_next_commands(self):
         self.verdict("WRONG", 13, ("a", WRONG), ("b", "{}"), ("c", WRONG), words=[
@@ -138,6 +153,13 @@ class CompileErrors(Workbook):
             text = self.error(*lines)
             self.assertRegex(text, r"chapters/01_first/first.cuh:5(:12)?: no match\n")
             self.assertIn("stumbled in common/x.cuh:3", text)
+
+    def test_a_missing_brace_is_looked_for_in_the_holes(self):
+        piece = self.root / "chapters/01_first/first.cuh"
+        piece.write_text(piece.read_text().replace("return 0;", "if (true) {", 1))
+        text = self.error("/usr/include/c++/std_function.h:55:3: error: expected class-name")
+        self.assertIn("hole first.value has 1 of { and 0 of }", text)
+        self.assertNotIn("class-name", text)
 
     def test_nvcc_and_the_linker(self):
         self.assertIn("first.cuh:5: expected a \";\"",

@@ -3,7 +3,7 @@
     python3 tools/measure_chapters.py [--cuda] [NN ...]
 
 Needs the reference executables (`cmake --build build/cpu-release`, or cuda-release). Every time is
-the median of five runs, each of them the median of many repeats. Rows of other machines stay.
+the median of three runs, each of them the median of many repeats. Rows of other machines stay.
 """
 
 import argparse
@@ -16,11 +16,11 @@ import subprocess
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-RUNS = 5
+RUNS = 3
 
 MILLION = 1_000_000
 SIZES = {"cpu": [1000, 16384, 131072, MILLION], "cuda": [1000, 16384, 131072, MILLION, 8 * MILLION]}
-DOUBLED = {"cpu": [1000 * 2 ** k for k in range(7)], "cuda": [1000 * 2 ** k for k in range(10)]}
+DOUBLED = {"cpu": [1000 * 2 ** k for k in range(6)], "cuda": [1000 * 2 ** k for k in range(10)]}
 
 
 def digits(value, count=3):

@@ -74,7 +74,7 @@ DeviceBuffer<T> uploaded(Device device, const std::vector<T>& values, const char
 /// main() of a chapter's checks.
 inline int checkMain(int argc, char** argv, const std::string& chapter,
                      const std::vector<Check>& checks) {
-    return runChecks(argc, argv, chapter, checks, reachedHoles);
+    return runChecks(argc, argv, chapter, checks, takeReachedHoles);
 }
 
 }  // namespace ballpit::check

@@ -74,10 +74,10 @@ struct Check {
     std::function<void(Report&)> body;
 };
 
-/// Runs the checks as the command line says, and returns the verdict's exit code. `reachedHoles`
-/// gives the ids of the open holes met so far.
+/// Runs the checks as the command line says, and returns the verdict's exit code. `takeHoles` gives
+/// the ids of the open holes met since its last call.
 int runChecks(int argc, char** argv, const std::string& chapter, const std::vector<Check>& checks,
-              const std::function<std::vector<std::string>()>& reachedHoles);
+              const std::function<std::vector<std::string>()>& takeHoles);
 
 std::string text(bool value);
 std::string text(int value);

@@ -69,6 +69,12 @@ std::vector<Device> devicesFor(const std::string& word) {
     return {Device::cpu, Device::cuda};
 }
 
+/// The reason without the advice: nobody asked for the GPU.
+std::string whyNoCuda() {
+    const std::string why = whyCudaIsUnusable();
+    return why.substr(0, why.find(": use"));
+}
+
 json startEvent(const std::string& chapter, const Request& request,
                 const std::vector<Device>& devices) {
     json start{{"event", "start"}, {"chapter", chapter}, {"seed", request.seed}};
@@ -76,7 +82,7 @@ json startEvent(const std::string& chapter, const Request& request,
     for (const Device device : devices) start["devices"].push_back(name(device));
     start["skipped"] = json::array();
     if (request.device == "all" && !cudaUsable())
-        start["skipped"].push_back({{"device", "cuda"}, {"why", whyCudaIsUnusable()}});
+        start["skipped"].push_back({{"device", "cuda"}, {"why", whyNoCuda()}});
     return start;
 }
 
@@ -98,8 +104,8 @@ json resultEvent(const Check& check, const Report& report, const std::string& st
 /// Everything that one call of the program does.
 class Run {
 public:
-    Run(const Request& request, const std::function<std::vector<std::string>()>& reachedHoles)
-        : request_(request), reachedHoles_(reachedHoles), log_(request.events) {
+    Run(const Request& request, const std::function<std::vector<std::string>()>& takeHoles)
+        : request_(request), takeHoles_(takeHoles), log_(request.events) {
         // At once, not after the check: an open hole may well lead to a crash.
         current_ = this;
         holeListener() = [](const char* id) { current_->tellHole(id); };
@@ -141,7 +147,7 @@ private:
             report.fail(std::string("stopped by an exception: ") + error.what());
             code = wrong;
         }
-        tellHoles();
+        const bool open = tellHoles();
         for (const std::string& text : report.measurements)
             log_.write({{"event", "measured"}, {"text", text}});
         if (!report.picturePath.empty()) {
@@ -150,13 +156,18 @@ private:
         }
         static const std::map<VerdictCode, std::string> names{
             {correct, "passed"}, {cudaError, "cuda error"}, {wrong, "wrong"}, {racy, "racy"}};
-        log_.write(resultEvent(check, report, names.at(code)));
+        json result = resultEvent(check, report, names.at(code));
+        result["open"] = open;
+        log_.write(result);
         if (code != correct) codes_.insert(code);
         return code;
     }
 
-    void tellHoles() {
-        for (const std::string& id : reachedHoles_()) tellHole(id);
+    /// True if the last check met an open hole.
+    bool tellHoles() {
+        const std::vector<std::string> ids = takeHoles_();
+        for (const std::string& id : ids) tellHole(id);
+        return !ids.empty();
     }
 
     /// Kernels on several threads may meet holes at the same time.
@@ -168,7 +179,7 @@ private:
 
     static inline Run* current_ = nullptr;
     const Request& request_;
-    const std::function<std::vector<std::string>()>& reachedHoles_;
+    const std::function<std::vector<std::string>()>& takeHoles_;
     Log log_;
     std::mutex holesMutex_;
     std::set<std::string> holes_;
@@ -195,7 +206,7 @@ void printList(const std::vector<Check>& checks) {
 }  // namespace
 
 int runChecks(int argc, char** argv, const std::string& chapter, const std::vector<Check>& checks,
-              const std::function<std::vector<std::string>()>& reachedHoles) {
+              const std::function<std::vector<std::string>()>& takeHoles) {
     // Line by line also into a pipe: what a student printed must survive the crash it looks for.
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
     CLI::App app{"Checks of chapter " + chapter + ". `./ballpit check " + chapter +
@@ -215,7 +226,7 @@ int runChecks(int argc, char** argv, const std::string& chapter, const std::vect
         requireKnown(request.onlyCase, checks);
         requireKnown(request.after, checks);
         if (request.list) return printList(checks), exitOk;
-        return Run(request, reachedHoles).all(chapter, checks);
+        return Run(request, takeHoles).all(chapter, checks);
     });
 }
 

@@ -4,6 +4,7 @@ import re
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from workbook import markers
 from workbook.chapters import ROOT
 
 # g++ and clang: "file:line:column: error: text". nvcc: "file(line): error: text".
@@ -42,7 +43,7 @@ class CompileError:
             if self.column:
                 shown.append("    " + " " * (self.column - 1) + "^")
         if self.inside:
-            shown.append(f"(the compiler stumbled in {self.inside}, called from this line)")
+            shown.append(f"(the compiler stumbled in {self.inside}, because of this line)")
         return shown
 
 
@@ -67,6 +68,20 @@ def _cause(lines, ours):
     return None
 
 
+def _unmatched_brace(files, error, log):
+    """A brace too many or too few shows far behind the student's file: then the hole is named."""
+    for file in files:
+        path = ROOT / file
+        text = path.read_text(errors="replace") if path.exists() else ""
+        for hole, (line, content) in markers.student_holes(text).items():
+            opening, closing = (sum(row.count(brace) for row in content) for brace in "{}")
+            if opening != closing:
+                return CompileError(f"hole {hole} has {opening} of {{ and {closing} of }}", file,
+                                    line, inside=f"{_relative(error['file'])}:{error['line']}",
+                                    log=log)
+    return None
+
+
 def find(log, student_files):
     """The CompileError to show, or None if the log holds none. `student_files`: paths in the
     project; the log's other errors are the engine's, or echoes."""
@@ -85,7 +100,8 @@ def find(log, student_files):
             inside = f"{_relative(match['file'])}:{match['line']}"
             return CompileError(match["text"], inside=inside, log=where, **cause)
     if errors:
-        return CompileError(errors[0][1]["text"], log=where, **_place(errors[0][1]))
+        return (_unmatched_brace(sorted(ours), errors[0][1], where)
+                or CompileError(errors[0][1]["text"], log=where, **_place(errors[0][1])))
     for line in lines:
         if match := LINKER.search(line):
             return CompileError(match[0], log=where)

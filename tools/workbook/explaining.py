@@ -7,6 +7,7 @@ from workbook.terminal import paint, plural
 
 COLOURS = {"CORRECT": "green", "TODO": "yellow", "RACY": "magenta"}
 ELEMENTS_SHOWN = 3
+FAILURES_IN_FULL = 3
 
 
 def text(verdict):
@@ -16,9 +17,13 @@ def text(verdict):
         lines += ["", *verdict.error.lines(), "", f"all of it: {verdict.error.log}"]
         return "\n".join(lines)
     lines += holes(verdict)
-    if verdict.state != "TODO":  # behind an open hole, a wrong answer says nothing
-        for result in verdict.failed:
-            lines += ["", *failure(result)]
+    # Behind an open hole, a wrong answer says nothing.
+    shown = verdict.wrong_already if verdict.holes else verdict.failed
+    for result in shown[:FAILURES_IN_FULL]:
+        lines += ["", *failure(result)]
+    if len(shown) > FAILURES_IN_FULL:
+        lines += ["", "also wrong, perhaps for the same reason:"]
+        lines += [f"  {in_one_line(result)}" for result in shown[FAILURES_IN_FULL:]]
     for crash in verdict.crashes:
         lines += ["", *crashed(crash)]
     if verdict.gave_up:
@@ -85,6 +90,14 @@ def failure(result):
     return lines
 
 
+def in_one_line(result):
+    """A failing check in brief: its first wrong element."""
+    first = next(iter(result.get("failures", [])), None)
+    words = (f"{first['what']}: got {first['got']}, expected {first['expected']}" if first
+             else result.get("message", ""))
+    return f"{result['id']} ({result['device']})  {words}"
+
+
 def _check_name(report):
     if not report["id"]:
         return "before the first check"
@@ -116,18 +129,22 @@ def speed(timing):
 
 def next_steps(verdict):
     """The exact commands that help now."""
-    if verdict.holes:
+    if verdict.holes and not verdict.wrong_already:
         return [f"hint:  ./ballpit hint {verdict.chapter} {verdict.holes[0]}"]
-    reports = verdict.failed + verdict.crashes + ([verdict.timeout] if verdict.timeout else [])
+    reports = verdict.wrong_already or verdict.failed + verdict.crashes + ([verdict.timeout] if verdict.timeout else [])
     check = reports[0]["id"]
     if not check:
-        return [help_with(verdict.chapter)]
+        return help_with(verdict.chapter)
     seed = f" --seed {verdict.seed}" if verdict.seed is not None else ""
     return [f"again: ./ballpit check {verdict.chapter} --case {check}{seed}{verdict.options}",
-            f"why:   ./ballpit explain {check}", help_with(verdict.chapter)]
+            f"why:   ./ballpit explain {check}", *help_with(verdict.chapter, check)]
 
 
-def help_with(label):
-    """Hints are there for holes; a chapter without holes can only be as it was at the start."""
-    command = "hint:  ./ballpit hint" if chapters.find(label).holes() else "back:  ./ballpit reset"
-    return f"{command} {label}"
+def help_with(label, check=""):
+    """Hints are there for holes, and many a check is named like the hole it looks at. A chapter
+    without holes can only be as it was at the start."""
+    ids = [hole.id for hole in chapters.find(label).holes()]
+    if not ids:
+        return [f"back:  ./ballpit reset {label}"]
+    return [f"hint:  ./ballpit hint {label} {check if check in ids else 'HOLE'}"
+            + ("" if check in ids else f"  (HOLE: {', '.join(ids)})")]

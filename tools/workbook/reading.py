@@ -87,6 +87,13 @@ def ids_in_source(chapter):
 def explain_check(args):
     chapters = {identifier: chapter for chapter in all_chapters()
                 for identifier in ids_in_source(chapter)}
+    named = [chapter for chapter in all_chapters()
+             if args.check in (chapter.label, chapter.folder, chapter.folder[3:])]
+    if named:
+        print(f"The checks of chapter {named[0].folder}:\n")
+        for check in reference.checks(named[0]):
+            print(f"  {check['id']:<20} {check['claim']}")
+        return 0
     if args.check not in chapters:
         near = difflib.get_close_matches(args.check, chapters, 3, 0.4) or list(chapters)[:3]
         raise InputError(f"unknown check '{args.check}': the nearest are {', '.join(near)}")
