@@ -243,7 +243,8 @@ int main(int argc, char** argv) {
           "alone.",
           sineByHand},
          {"hello.eight",
-          "Eight balls are as worked out by hand: ball k lies sqrt(2k + 1) m from the middle",
+          "Eight balls have the place and radius worked out by hand: ball k lies sqrt(2k + 1) m "
+          "from the middle",
           "What is wrong for eight balls is wrong for a million, and eight fit on a sheet of "
           "paper.",
           eightByHand},

@@ -29,7 +29,8 @@ void requireRight(Report& report, Hasher& hash, const World& world,
     if (got.outside != outside)
         report.fail("of " + text(points.size()) + " balls, counted as outside", text(got.outside),
                     text(outside));
-    guessMistake(report, world, points, got);
+    // A few balls are not enough to tell one mistake from another.
+    if (points.size() >= 500) guessMistake(report, world, points, got);
 }
 
 void axisByHand(Report& report) {
@@ -56,10 +57,16 @@ void axisByHand(Report& report) {
         if (cellOnX(row.coordinate) != row.cell)
             report.fail("cell of " + text(row.coordinate) + " m (" + row.where + ")",
                         text(cellOnX(row.coordinate)), text(row.cell));
-    report.guess({{castBelowName, [&] { return cellOnX(-9) == 0 && cellOnX(-20) == -1; }},
-                  {castAtZeroName, [&] { return cellOnX(-0.5f) == 4 && cellOnX(0.5f) == 4; }},
-                  {"rounding up: a face belongs to the cell above",
-                   [&] { return cellOnX(0) == 3 && cellOnX(0.5f) == 4; }}});
+    report.guess(
+        {{castBelowName, [&] { return cellOnX(-9) == 0 && cellOnX(-20) == -1; }},
+         {castAtZeroName, [&] { return cellOnX(-0.5f) == 4 && cellOnX(0.5f) == 4; }},
+         {"rounding up: a face belongs to the cell above",
+          [&] { return cellOnX(0) == 3 && cellOnX(0.5f) == 4; }},
+         {dividedName, [&] { return cellOnX(-7.9f) == 0 && cellOnX(-6) == 4; }},
+         {signName, [&] { return cellOnX(-9) == 0 && cellOnX(-20) == 6; }},
+         {"NaN comes out at the upper end: it fails every comparison, and in minimum(a, b) "
+          "and maximum(a, b) a NaN in `a` yields `b` (common/vec3.cuh)",
+          [&] { return report.failureCount == 1 && cellOnX(notANumber) == 8; }}});
 }
 
 void clampByHand(Report& report) {
@@ -268,7 +275,9 @@ void anyOrder(Report& report) {
         static_cast<std::uint32_t>(contention.launches) * countedByOneThread(aroundZero, outside);
     if (got == expected) {
         if (!contention.happened)
-            report.measured("threads never ran at once here: counting was not put to the test");
+            report.measured(
+                "threads never ran at once here: counting was not put to the test. Run "
+                "the check again when the machine is idle");
         return;
     }
     report.racy("one thread counts " + text(expected) + " balls outside, many threads " +

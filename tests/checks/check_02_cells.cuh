@@ -182,6 +182,13 @@ inline int castBeforeOrigin(double coordinate, double origin, double cellSize, i
     const int cell = static_cast<int>(coordinate / cellSize) - static_cast<int>(origin / cellSize);
     return std::clamp(cell, -1, resolution);
 }
+inline int dividedByInverse(double coordinate, double origin, double cellSize, int resolution) {
+    const double cell = std::floor((coordinate - origin) * cellSize);  // / (1 / cellSize)
+    return cell > -1 ? static_cast<int>(std::min<double>(cell, resolution)) : -1;
+}
+inline int signSwapped(double coordinate, double origin, double cellSize, int resolution) {
+    return dividedByInverse(origin, coordinate, 1 / cellSize, resolution);
+}
 inline int roundedUp(double coordinate, double origin, double cellSize, int resolution) {
     return std::clamp(static_cast<int>(std::ceil((coordinate - origin) / cellSize)) - 1, -1,
                       resolution);
@@ -193,22 +200,41 @@ constexpr const char* castBelowName =
 constexpr const char* castAtZeroName =
     "a cast to int in place of floor: -0.5 and 0.5 both become 0, so the cells on both sides of "
     "zero become one";
+constexpr const char* dividedName =
+    "a division by inverseCellSize: it is 1 / cell size already, so multiply";
+constexpr const char* signName =
+    "origin - coordinate: the distance from the lower wall is coordinate - origin";
 constexpr const char* axesName = "the axes in the wrong order: x must run fastest, z slowest";
 constexpr const char* widthName =
     "a wrong row length: a row has resolution.x cells, a layer has "
     "resolution.y rows";
 
-/// Guesses from the hashes of many balls and from how many were counted as outside.
+/// The student's cellAlongAxis.
+inline int yourAxis(double coordinate, double origin, double cellSize, int resolution) {
+    return cellAlongAxis(static_cast<float>(coordinate), static_cast<float>(origin),
+                         1.0f / static_cast<float>(cellSize), resolution);
+}
+
+/// Guesses from the hashes of many balls and from how many were counted as outside. A mistake along
+/// an axis is only named if cellAlongAxis, too, gives just what the mistake gives: where few balls
+/// are outside, one that is not counted looks like one that a cast took inside.
 inline void guessMistake(Report& report, const World& world, const std::vector<Vec3>& points,
                          const Hashed& got) {
+    const auto hashedBy = [&](Axis along) {
+        Hashed hashed{{}, got.indices};
+        for (const Place& place : placesOf(world, points, along)) {
+            hashed.hashes.push_back(place.hash);
+            hashed.outside += place.outside;
+        }
+        return hashed;
+    };
+    const Hashed right = hashedBy(cellByWalking);
+    if (got == right) return;
     const auto gives = [&](Axis along) {
         return [&, along] {
-            Hashed wrong{{}, got.indices};
-            for (const Place& place : placesOf(world, points, along)) {
-                wrong.hashes.push_back(place.hash);
-                wrong.outside += place.outside;
-            }
-            return got == wrong;
+            return got == hashedBy(along) && std::all_of(points.begin(), points.end(), [&](Vec3 p) {
+                       return isSameCell(cellIn(world, p, yourAxis), cellIn(world, p, along));
+                   });
         };
     };
     const auto numbers = [&](auto number) {
@@ -224,6 +250,13 @@ inline void guessMistake(Report& report, const World& world, const std::vector<V
         {{castBelowName, gives(castAfterOrigin)},
          {castAtZeroName, gives(castBeforeOrigin)},
          {"rounding up: a ball on a face belongs to the cell above", gives(roundedUp)},
+         {dividedName, gives(dividedByInverse)},
+         {signName, gives(signSwapped)},
+         {"the test for outside the wrong way round: the balls inside are counted",
+          [&] {
+              return got.hashes == right.hashes && right.outside > 0 &&
+                     got.outside == points.size() - right.outside;
+          }},
          {axesName, numbers([](Int3 r, Int3 c) { return (c.x * r.y + c.y) * r.z + c.z; })},
          {widthName, numbers([](Int3 r, Int3 c) { return (c.z * r.x + c.y) * r.y + c.x; })}});
 }

@@ -7,6 +7,13 @@ using namespace ballpit::check;
 
 namespace {
 
+/// As the lesson writes keys and digits.
+std::string hex(std::uint32_t number) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "0x%x", number);
+    return digits;
+}
+
 // ---- the checks
 
 void digitByHand(Report& report) {
@@ -20,8 +27,8 @@ void digitByHand(Report& report) {
           Row{0xF0000000u, 28, 15}, Row{0xF0000000u, 24, 0}, Row{0xFFFFFFFFu, 16, 15}}) {
         const std::uint32_t digit = digitOf(row.key, row.shift);
         if (digit != row.digit)
-            report.fail("digit of key " + text(row.key) + " at bit " + text(row.shift), text(digit),
-                        text(row.digit));
+            report.fail("digit of key " + hex(row.key) + " at bit " + text(row.shift), hex(digit),
+                        hex(row.digit));
     }
     report.guess({{"the mask is the number of bits; it must be four ones: 15",
                    [] { return digitOf(0x1A7, 0) == (7 & 4) && digitOf(0xFFFFFFFFu, 16) == 4; }}});
@@ -97,9 +104,11 @@ Numbers slowStarts(const Numbers& keys, int shift) {
     return starts;
 }
 
+/// What one pass makes of `keys`, which do not fill their last tile.
 void requireScatter(Report& report, const Numbers& keys, int shift, const Pairs& expected) {
+    constexpr std::uint32_t nothing = 0xFFFFFFFFu;
     const int count = static_cast<int>(keys.size());
-    const Numbers padded = paddedToTiles(keys), untouched(padded.size(), 0xFFFFFFFFu);
+    const Numbers padded = paddedToTiles(keys), untouched(padded.size(), nothing);
     auto fromKeys = uploaded(report.device, padded, "fromKeys");
     auto fromValues = uploaded(report.device, upTo(padded.size()), "fromValues");
     auto toKeys = uploaded(report.device, untouched, "toKeys");
@@ -109,28 +118,41 @@ void requireScatter(Report& report, const Numbers& keys, int shift, const Pairs&
     launch<scatterByDigit>(report.device, tileCountFor(count), count, shift, pass,
                            View<const std::uint32_t>(starts.view()));
     Pairs got{toKeys.download(), toValues.download()};
+    const bool oneTooFar =
+        std::equal(expected.keys.begin(), expected.keys.end(), got.keys.begin() + 1) &&
+        std::equal(expected.values.begin(), expected.values.end(), got.values.begin() + 1);
     const auto at = [&](const char* what) {
         return [=](std::size_t k) {
             return what + text(k) + " after a pass over " + text(count) + " pairs";
         };
     };
-    const bool beyond = got.keys.size() > keys.size() && got.values[keys.size()] != 0xFFFFFFFFu;
+    const std::uint32_t valueBehind = got.values[keys.size()];
+    const bool beyond = valueBehind != nothing;
     if (beyond)
-        report.fail("value at place " + text(count) + ", behind the last pair",
-                    text(got.values[keys.size()]), "nothing");
+        report.fail("value at place " + text(count) + ", behind the last pair", text(valueBehind),
+                    "nothing");
     got.keys.resize(keys.size()), got.values.resize(keys.size());
     sameElements(report, got.keys, expected.keys, at("key at place "));
     sameElements(report, got.values, expected.values, at("value at place "));
     report.guess(
-        {{"the last tile moved as a full one: see tileEnd", [&] { return beyond; }},
+        {{"every pair one place too far: the place is `next` as it was before it grows",
+          [&] { return oneTooFar; }},
+         {"the last tile moved as a full one: see tileEnd",
+          [&] { return beyond && valueBehind >= keys.size(); }},
          {"the values do not move with their keys",
           [&] { return got.keys == expected.keys && got.values == upTo(keys.size()); }},
          {"a tile taken from its last pair to its first: pairs of one digit change their order",
           [&] {
               return got == backwardsPass({keys, upTo(keys.size())}, shift);
           }},
-         {"all pairs of one digit land in one place: `next` must grow",
-          [&] { return std::count(got.keys.begin(), got.keys.end(), 0xFFFFFFFFu) > 0; }}});
+         {"all pairs of one digit land in one place: `next` must grow", [&] {
+              for (std::size_t k = 0; k < keys.size(); ++k) {
+                  const bool isFirst = k == 0 || (expected.keys[k] >> shift & 15u) !=
+                                                     (expected.keys[k - 1] >> shift & 15u);
+                  if (isFirst != (got.keys[k] != nothing)) return false;
+              }
+              return true;
+          }}});
 }
 
 void scatterByHand(Report& report) {
@@ -141,12 +163,32 @@ void scatterByHand(Report& report) {
     requireScatter(report, keys, 4, inOrder(keys, 0xF0));
 }
 
+/// Keys with more digits than the sort is told of: a pass too many puts one of these in order, too.
+void requireNoFurtherPass(Report& report) {
+    for (const int keyBits : {digitBits, 2 * digitBits}) {
+        const Numbers keys = randomList(300, 16, report.seed).keys;
+        const Pairs got = sorted(report.device, {"", keyBits, keys});
+        sameElements(report, got.keys, inOrder(keys, lowest(keyBits)).keys, [&](std::size_t k) {
+            return "key at place " + text(k) + " after sorting 16-bit keys by their lowest " +
+                   text(keyBits) + " bits";
+        });
+        const auto ordered = [&](int bits) {
+            return [&, bits] { return got == inOrder(keys, lowest(bits)); };
+        };
+        report.guess({{"a pass for every bit: the next digit is digitBits further up",
+                       ordered(keyBits + digitBits - 1)},
+                      {"a pass too many: it sorts by a digit above the key's bits",
+                       ordered(keyBits + digitBits)}});
+    }
+}
+
 void passes(Report& report) {
     for (const int keyBits : {1, 4, 5, 8, 9, 20, 29, 32}) {
         const List list =
             randomList(40, keyBits, report.seed + static_cast<std::uint64_t>(keyBits));
         requireStableOrder(report, list, sorted(report.device, list));
     }
+    requireNoFurtherPass(report);
     drawIfWrong(report);
     // The lesson's question.
     List list = randomList(1000, 8, report.seed);
@@ -278,9 +320,9 @@ int main(int argc, char** argv) {
          {"sort.scatter", "A pass moves each pair to the next place of its digit, key and value",
           "The value says which ball it was. A key without its value is the hash of nobody.",
           scatterByHand},
-         {"sort.passes", "There is a pass for each digit, also for a last one of fewer bits",
+         {"sort.passes", "There is one pass for each digit, also for a last one of fewer bits",
           "Chapter 05 needs equal hashes side by side; a bit that no pass looks at tears them "
-          "apart.",
+          "apart. And each pass too many is a trip through memory for nothing.",
           passes},
          {"sort.sorted", "No key stands before a smaller one",
           "Chapter 05 finds where a cell starts by comparing neighbours in the list.", ascending},
