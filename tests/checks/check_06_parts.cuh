@@ -50,38 +50,60 @@ inline void visits(Report& report) {
     }
 }
 
-/// Runs the count alone: for each ball its count, and what it remembers.
+/// Counts the partners of the first `launched` balls alone. All other places hold a mark, and so do
+/// eight more behind the last ball's: whoever writes there is seen.
+inline void requireCounts(Report& report, const Scene06& scene, std::size_t launched) {
+    constexpr std::uint32_t mark = 0xABABABABu;
+    Ground ground(report.device, scene);
+    const std::size_t count = ground.balls.size(), places = (count + 1) * rememberedPartners;
+    auto counts = uploaded(report.device, Words(count, mark), "counts");
+    auto remembered = uploaded(report.device, Words(places, mark), "remembered");
+    launch<broadPhaseCollision>(report.device, static_cast<int>(launched), ground.grid.view(),
+                                ground.grid.sortedHashes(), ground.positions(), counts.view(),
+                                remembered.view());
+    Words expectedCounts(count, mark), expected(places, mark);
+    std::fill_n(expectedCounts.begin(), launched, 0);
+    for (const Pair p : touchingPairs(ground.balls)) {
+        if (p.first >= launched) continue;
+        const std::uint32_t k = expectedCounts[p.first]++;
+        if (k < rememberedPartners) expected[p.first * rememberedPartners + k] = p.second;
+    }
+    const std::string where = scene.name + (launched < count ? ", ball 0 alone: " : ": ");
+    const Words got = counts.download(), stored = remembered.download();
+    sameElements(report, got, expectedCounts,
+                 [&](std::size_t k) { return where + "partners after ball " + text(k); });
+    bool wroteBeyond = false;
+    for (std::size_t k = 0; k < places; ++k) {
+        if (stored[k] == expected[k]) continue;
+        const std::size_t ball = k / rememberedPartners;
+        wroteBeyond |= ball >= launched;
+        report.fail(where + "place " + text(k % rememberedPartners) +
+                        (ball < count ? " of what ball " + text(ball) + " remembers"
+                                      : " behind the end of what all remember"),
+                    stored[k] == mark ? "untouched" : text(stored[k]),
+                    expected[k] == mark ? "untouched" : text(expected[k]));
+    }
+    report.guess({{"it writes into the places of the next ball: only the first " +
+                       text(rememberedPartners) + " partners are remembered",
+                   [&] { return wroteBeyond; }},
+                  {"a silent cap: more partners than are remembered were not counted", [&] {
+                       Words capped = expectedCounts;
+                       for (std::size_t k = 0; k < launched; ++k)
+                           capped[k] = std::min(capped[k], rememberedPartners);
+                       return got == capped && got != expectedCounts;
+                   }}});
+}
+
+/// Ball 0 alone, then all: forwards, and backwards, where a ball that takes its neighbour's places
+/// comes after it.
 inline void counts(Report& report) {
-    for (const Scene06& scene : {fiveBalls, crowd(33)}) {
-        Ground ground(report.device, scene);
-        const std::size_t count = ground.balls.size();
-        DeviceBuffer<std::uint32_t> counts(report.device, count, "counts");
-        DeviceBuffer<std::uint32_t> remembered(report.device, count * rememberedPartners,
-                                               "remembered");
-        counts.fill(0xAB);
-        remembered.fill(0xAB);
-        launch<broadPhaseCollision>(report.device, static_cast<int>(count), ground.grid.view(),
-                                    ground.grid.sortedHashes(), ground.positions(), counts.view(),
-                                    remembered.view());
-        Words expectedCounts(count, 0), expected(count * rememberedPartners, 0xABABABABu);
-        for (const Pair p : touchingPairs(ground.balls)) {
-            const std::uint32_t k = expectedCounts[p.first]++;
-            if (k < rememberedPartners) expected[p.first * rememberedPartners + k] = p.second;
-        }
-        const Words got = counts.download();
-        sameElements(report, got, expectedCounts, [&](std::size_t k) {
-            return scene.name + ": partners after ball " + text(k);
-        });
-        sameElements(report, remembered.download(), expected, [&](std::size_t k) {
-            return scene.name + ": place " + text(k % rememberedPartners) + " of what ball " +
-                   text(k / rememberedPartners) + " remembers";
-        });
-        report.guess({{"a silent cap: more partners than are remembered were not counted", [&] {
-                           for (std::size_t k = 0; k < count; ++k)
-                               if (got[k] != std::min(expectedCounts[k], rememberedPartners))
-                                   return false;
-                           return got != expectedCounts;
-                       }}});
+    for (const LaunchOrder order : {LaunchOrder::forward, LaunchOrder::reversed}) {
+        const Threads inForce(order, 1);
+        for (const Scene06& scene : {fiveBalls, crowd(33)})
+            for (const std::size_t launched : {std::size_t{1}, scene.balls.size()}) {
+                requireCounts(report, scene, launched);
+                if (report.failed()) return;
+            }
     }
 }
 

@@ -111,19 +111,33 @@ inline void line(Report& report) {
                 {0.5f, -1, 0.25f});
     requireNear(report, "line from ball 1 to ball 0", lineOfCentres(1, 0, apart.view()),
                 {-0.5f, 1, -0.25f});
-    // Same centre; then so near that the square of the distance is 0.
-    for (const Vec3 b : {Vec3{0, 0, 0}, Vec3{1e-30f, 0, 0}}) {
-        TwoBalls same({0, 0, 0}, b);
-        requireNear(report, "line from ball 0 to ball 1, one centre",
-                    lineOfCentres(0, 1, same.view()), {0, 1, 0});
-        requireNear(report, "line from ball 1 to ball 0, one centre",
-                    lineOfCentres(1, 0, same.view()), {0, -1, 0});
-    }
-    TwoBalls same({0, 0, 0}, {0, 0, 0});
+    // One centre; then so near that the square of the distance is 0. Slots are where a ball lies
+    // now, ids are its own: here they run alike, then against each other.
+    auto idsAgainst = uploaded(Device::cpu, std::vector<std::uint32_t>{7, 3}, "ids");
+    const auto lineBetween = [&](std::uint32_t a, std::uint32_t b, float apart, bool against) {
+        TwoBalls balls({0, 0, 0}, {apart, 0, 0});
+        BodiesView view = balls.view();
+        if (against) view.ids = idsAgainst.view();
+        return lineOfCentres(a, b, view);
+    };
+    for (const bool against : {false, true})
+        for (const float apart : {0.0f, 1e-30f}) {
+            const std::string where = std::string(apart > 0 ? ", 1e-30 m apart" : ", one centre") +
+                                      (against ? ", ids 7 and 3" : ", ids 0 and 1");
+            const Vec3 up{0, against ? -1.0f : 1.0f, 0};
+            requireNear(report, "line from slot 0 to slot 1" + where,
+                        lineBetween(0, 1, apart, against), up);
+            requireNear(report, "line from slot 1 to slot 0" + where,
+                        lineBetween(1, 0, apart, against), -1.0f * up);
+        }
     report.guess(
         {{"no answer for coincident centres: their line is 0, and dividing by its length "
           "gives NaN",
-          [&] { return length(lineOfCentres(0, 1, same.view())) == 0; }}});
+          [&] { return length(lineBetween(0, 1, 0, false)) == 0; }},
+         {"the line was compared with 0, not its squared length: the square of 1e-30 is 0 as well",
+          [&] { return length(lineBetween(0, 1, 1e-30f, false)) == 0; }},
+         {"the slots were compared: ids stay with a ball, slots change when the balls are sorted",
+          [&] { return lineBetween(0, 1, 0, true).y > 0 && lineBetween(1, 0, 0, true).y < 0; }}});
 }
 
 inline void contact(Report& report) {
@@ -187,6 +201,15 @@ inline void push(Report& report) {
     requireNear(report, "push of the lesson's two balls", pushAlongNormal(0.05f, 1.5f), 0.05 / 1.5);
     requireNear(report, "push of 4 kg and 4 kg, 0.1 m deep", pushAlongNormal(0.1f, 0.5f), 0.2);
     requireNear(report, "push of balls that just touch", pushAlongNormal(0, 2), 0);
+    const auto isPush = [](double push) {
+        return std::abs(pushAlongNormal(0.05f, 1.5f) - push) < 1e-5;
+    };
+    report.guess({{"half the overlap for each ball: the lighter one must give way more",
+                   [&] { return isPush(0.025); }},
+                  {"half the push for each ball: both get all of it, and each divides by its mass",
+                   [&] { return isPush(0.025 / 1.5); }},
+                  {"multiplied by the inverse masses in place of divided by them",
+                   [&] { return isPush(0.05 * 1.5); }}});
 }
 
 inline void pair(Report& report) {

@@ -32,6 +32,16 @@ inline Example swapped(const Example& example) {
     return result;
 }
 
+/// Gathered without its sign, a pair acts on its first ball as on its second: known by the lesson's
+/// two balls.
+inline Mistake signForgotten(Device device) {
+    return {"the sign was forgotten: a pair acts on its first ball against the normal", [device] {
+                const Spheres after = resolvedBy(Version::gathered, device, twoBalls());
+                return length(after.velocities[0] - Vec3{4.92f, 1.44f, 0}) < 1e-4f ||
+                       length(after.positions[0] - Vec3{0.08f / 3, 0.02f, 0}) < 1e-5f;
+            }};
+}
+
 inline void twoBallsMeet(Report& report) {
     struct Row {
         const char* what;
@@ -68,6 +78,7 @@ inline void twoBallsMeet(Report& report) {
         requireNear(report, std::string(name(version)) + ": ball 0 gives way", after.positions[0],
                     {-0.08f / 3, -0.02f, 0});
     }
+    report.guess({signForgotten(report.device)});
 }
 
 /// What computePairImpulse stores for each pair.
@@ -175,6 +186,7 @@ inline void conserved(Report& report) {
                 report, std::string(name(version)) + ", one pair, e " + text(e) + ": energy, J",
                 kineticEnergy(resolvedBy(version, report.device, pair)), before - lost, 1e-5);
     }
+    report.guess({signForgotten(report.device)});
 }
 
 }  // namespace ballpit::check

@@ -12,6 +12,7 @@ RUNS = (("rest of its own row", YELLOW), ("next row, own layer", GREEN),
         ("row before, next layer", SKY), ("same row, next layer", BLUE),
         ("row after, next layer", PURPLE))
 SIDE = 3  # cells along each axis of the small world
+CELL = 54  # pixels
 
 
 class EightBalls:
@@ -36,6 +37,13 @@ class EightBalls:
             return 0 if dx in (0, 1) else None
         return {(1, 0): 1, (-1, 1): 2, (0, 1): 3, (1, 1): 4}.get((dy, dz))
 
+    def place_in_cell(self, slot):
+        """Pixels from the cell's upper left corner; near a border a little farther in, so that the
+        whole ball is seen in its cell."""
+        x, y = (place + SIDE / 2 - cell for place, cell in
+                zip(self.places[slot], self.cells[slot][:2]))
+        return tuple(min(max(at, 13), CELL - 13) for at in (x * CELL, (1 - y) * CELL))
+
     def distance(self, slot):
         return math.dist(self.places[slot], self.places[self.seeker])
 
@@ -54,7 +62,7 @@ def runs(run):
 
 
 def draw_layer(figure, balls, layer, left, top):
-    cell = 54
+    cell = CELL
     words = ("layer 0: not searched", "layer 1: its own", "layer 2: the next")[layer]
     figure.text(left + 1.5 * cell, top - 14, words, 14, bold=layer == 1)
     for y in range(SIDE):
@@ -64,22 +72,31 @@ def draw_layer(figure, balls, layer, left, top):
             if found is not None:
                 figure.rectangle(*corner, cell, cell, fill=RUNS[found][1], stroke="none",
                                  opacity=0.35)
-            figure.text(corner[0] + 5, corner[1] + 15, (layer * SIDE + y) * SIDE + x, 12,
-                        anchor="start", fill="#52606d")
+            inside = [balls.place_in_cell(slot) for slot, place in enumerate(balls.cells)
+                      if place == (x, y, layer)]
+            draw_number(figure, corner, inside, (layer * SIDE + y) * SIDE + x)
     figure.grid(left, top, cell, SIDE, SIDE)
-    for slot, (x, y, _) in enumerate(balls.places):
-        if balls.cells[slot][2] == layer:
-            draw_ball(figure, balls, slot, left + (x + SIDE / 2) * cell,
-                      top + (SIDE / 2 - y) * cell)
+    for slot, (x, y, z) in enumerate(balls.cells):
+        if z == layer:
+            across, down = balls.place_in_cell(slot)
+            draw_ball(figure, balls, slot, left + x * cell + across,
+                      top + (SIDE - 1 - y) * cell + down)
+
+
+def draw_number(figure, corner, balls, number):
+    """A cell's number, in the corner that lies farthest from the balls in the cell."""
+    corners = [(12, 11), (CELL - 12, 11), (12, CELL - 11), (CELL - 12, CELL - 11)]
+    across, down = max(corners, key=lambda at: min((math.dist(at, b) for b in balls), default=0))
+    figure.text(corner[0] + across, corner[1] + down + 4, number, 12, fill="#52606d")
 
 
 def draw_ball(figure, balls, slot, x, y):
     if slot == balls.seeker:
-        figure.circle(x, y, 12, fill=INK)
+        figure.circle(x, y, 11, fill=INK)
     elif slot in balls.partners:
-        figure.circle(x, y, 12, fill=RED, stroke=RED)
+        figure.circle(x, y, 11, fill=RED, stroke=RED)
     else:
-        figure.circle(x, y, 12, fill=PAPER)
+        figure.circle(x, y, 11, fill=PAPER)
     dark = slot == balls.seeker or slot in balls.partners
     figure.text(x, y + 5, slot, 14, fill=PAPER if dark else INK, bold=True)
 
