@@ -243,7 +243,7 @@ int main(int argc, char** argv) {
          {"reorder.back", "A value by slot comes back to its body",
           "Users number their balls. What they get back must not depend on how memory is sorted.",
           back},
-         {"reorder.bytes", "One body costs 84 bytes: its index, and four fields read and written",
+         {"reorder.bytes", "The bytes of one body: its index, and four fields read and written",
           "The gather computes nothing, so bytes a second are its speed.", bytes},
          {"reorder.same_bodies", "Afterwards every body is in memory once",
           "A body that is there twice hits itself; one that is not there has vanished.",

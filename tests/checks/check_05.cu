@@ -235,7 +235,7 @@ int main(int argc, char** argv) {
           "The arrays live as long as the engine. A cell that is not cleared is haunted.",
           secondFrame},
          {"bounds.layer", "A layer of cells: every cell holds as many balls as are in it",
-          "What no one thought of, in a picture.", layer},
+          "The picture shows which is wrong: a start, an end, or the clearing.", layer},
          {"bounds.order", "The result does not depend on the order of the threads",
           "If two slots write one cell, the later one wins, and no one knows which that is.",
           anyOrder}});

@@ -80,17 +80,18 @@ def check_command(args):
     chapter = find_checked(args.chapter)
     content = record.content_hash(chapter)
     verdict, printed = check(chapter, args)
+    if is_whole(args):
+        record.remember(chapter, verdict.state, content, explaining.text(verdict))
+    if not args.json:
+        show_printed(printed)
+        print(explaining.text(verdict), flush=True)
+    # Last, since it takes a while: an interruption then costs the speed alone.
     if verdict.state == "CORRECT" and is_whole(args) and not args.no_speed:
         verdict.speed = measured_speed(chapter)
     if args.json:
         print(verdict.as_json())
-    else:
-        show_printed(printed)
-        print(explaining.text(verdict))
-        if verdict.speed:
-            print(explaining.speed(verdict.speed))
-    if is_whole(args):
-        record.remember(chapter, verdict.state, content, explaining.text(verdict))
+    elif verdict.speed:
+        print(explaining.speed(verdict.speed))
     return verdict.exit_code
 
 

@@ -65,11 +65,12 @@ def run_logged(command, log, **options):
         return finish(start(command, stdout=file, stderr=subprocess.STDOUT, **options)) == 0
 
 
-def output_of(command, **options):
-    """What a command prints, or None if it fails."""
+def output_of(command, time_limit=None, **options):
+    """What a command prints, or None if it fails. After `time_limit` seconds it is stopped, and
+    subprocess.TimeoutExpired raised."""
     child = start(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, **options)
     try:
-        output = child.communicate()[0]
+        output = child.communicate(timeout=time_limit)[0]
     finally:
         stop(child)
     return output if child.returncode == 0 else None

@@ -3,10 +3,12 @@
 import json
 import os
 import statistics
+import subprocess
 
 from workbook import build, processes
 from workbook.errors import ToolError
 
+TIME_LIMIT = 30  # seconds for one timed run
 PAIRS = 5  # timed runs of yours and of the solution, in turn
 
 
@@ -26,10 +28,14 @@ def measure(chapter, options=()):
         for target in targets:
             command = [str(build.executable(target)), "--time", "--json", *options]
             try:
-                output = processes.output_of(command, env={**os.environ, **pinned()})
+                output = processes.output_of(command, TIME_LIMIT,
+                                             env={**os.environ, **pinned()})
                 timing = json.loads(output or "")
                 times[target].append(float(timing["milliseconds"]))
                 count = timing["count"]
+            except subprocess.TimeoutExpired:
+                raise ToolError(f"{target} was stopped after {TIME_LIMIT} s: does each thread do "
+                                "the work of all?") from None
             except (ValueError, KeyError):
                 shown = " ".join([target, *command[1:]])
                 raise ToolError(f"'{shown}' did not print one line of JSON with \"milliseconds\" "
