@@ -138,8 +138,9 @@ def update(chapter, device, build, thread_counts):
     old = file.read_text().splitlines() if file.exists() else []
     notes = [line for line in old if line.startswith("# ") and " commit " in line
              and not line.startswith(f"# {label}: ")]
-    others = [row for row in csv.reader(line for line in old if not line.startswith("#"))
-              if row[0] not in ("machine", label) and len(row) == len(header)]
+    table = list(csv.reader(line for line in old if not line.startswith("#")))
+    # Rows of a table with other columns would say something else here.
+    others = [row for row in table[1:] if table[0] == header and row[0] != label]
     commit = output_of(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]) or "unknown"
     with open(file, "w", newline="") as out:
         out.write(f"# {program}_reference --device DEVICE --count BALLS --time; medians of {RUNS} "
