@@ -14,11 +14,9 @@
 
 #include "03_sort/sort.cuh"
 #include "06_broad_phase/broad_phase.cuh"
-#include "07_impulse_response/atomic_response.cuh"
-#include "07_impulse_response/impulse_response.cuh"
-#include "07_impulse_response/racy_response.cuh"
 #include "10_full_system/simulator_settings.h"
 #include "10_full_system/step_parts.cuh"
+#include "11_stability/make_response.cuh"
 #include "common/launch_recording.cuh"
 #include "common/readback.cuh"
 #include "common/rigid_body.cuh"
@@ -35,7 +33,7 @@ public:
           bodies_(settings.device, static_cast<std::size_t>(count_)),
           grid_(settings.device, settings.bounds, settings.cellSize, count_),
           pairs_(settings.device, static_cast<std::size_t>(count_), settings.firstPairCapacity()),
-          response_(makeResponse(settings)),
+          response_(makeResponse(settings_)),
           status_(settings.device),
           scratch_(settings.device, 0, "scratch"),
           timer_(settings.device) {
@@ -142,18 +140,13 @@ private:
         Copies result;
     };
 
-    /// The settings, once they are known to make sense and to fit the device's memory.
-    static const SimulatorSettings& checked(const SimulatorSettings& s) {
+    /// The settings, once they are known to make sense and to fit the device's memory; the knobs
+    /// left empty have the response's own values.
+    static SimulatorSettings checked(SimulatorSettings s) {
         requireSensible(s);
         requireMemory(predictedBytes(s), s);
+        static_cast<ResponseKnobs&>(s) = completed(s.response, s, length(s.gravity), s.dt);
         return s;
-    }
-
-    static std::unique_ptr<Response> makeResponse(const SimulatorSettings& s) {
-        if (s.response == ResponseMethod::racy) return std::make_unique<RacyResponse>(s.device);
-        if (s.response == ResponseMethod::atomic) return std::make_unique<AtomicResponse>(s.device);
-        return std::make_unique<ImpulseResponse>(s.device, static_cast<std::size_t>(s.objects),
-                                                 s.firstPairCapacity());
     }
 
     /// The grid finds touching balls only in neighbouring cells, so no ball may be larger than one.
@@ -261,7 +254,7 @@ private:
         Copies now{following(from.moving, 1), from.fixed};
         integrate(from, now);
         now = sortInto(from, now);
-        const float share = 1.0f / static_cast<float>(std::max(1, settings_.iterations - 1));
+        const float share = 1.0f / static_cast<float>(std::max(1, *settings_.iterations - 1));
         for (int round = 0; round < settings_.iterations; ++round) {
             if (rebuild && round > 0) {
                 hash(now);
@@ -269,7 +262,7 @@ private:
             }
             detectCollisions(now);
             const Copies resolved{otherWorkingCopy(from.moving, now.moving), now.fixed};
-            const bool last = round == settings_.iterations - 1;
+            const bool last = round == *settings_.iterations - 1;
             resolveCollisions(now, resolved, last || rebuild ? unlimitedMotion : share);
             now = resolved;
         }

@@ -35,7 +35,8 @@ inline void runFrames(PhysicsSimulator& simulator, Film& film, Summary& summary)
 inline Summary runScene(const Options& options) {
     const Scene scene = sceneFor(options);
     SimulatorSettings settings = settingsFor(scene, options.device);
-    settings.iterations = options.iterations;
+    settings.response = responseMethod(options.response);
+    static_cast<ResponseKnobs&>(settings) = options.knobs;
     PhysicsSimulator simulator(settings);
     simulator.bodies().upload(scene.spheres);
     Film film(options, scene.bounds);

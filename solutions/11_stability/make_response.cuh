@@ -1,0 +1,32 @@
+// Chapter 11: from the settings to the response they ask for.
+#pragma once
+
+#include "07_impulse_response/atomic_response.cuh"
+#include "07_impulse_response/impulse_response.cuh"
+#include "07_impulse_response/racy_response.cuh"
+#include "10_full_system/simulator_settings.h"
+#include "11_stability/coloured_response.cuh"
+#include "11_stability/jacobi_response.cuh"
+
+namespace ballpit {
+
+/// The response of `s`, whose knobs are completed.
+inline std::unique_ptr<Response> makeResponse(const SimulatorSettings& s) {
+    const auto bodies = static_cast<std::size_t>(s.objects);
+    const std::size_t pairs = s.firstPairCapacity();
+    const ContactRules rules{*s.relaxation, *s.positionShare, *s.restitutionThreshold};
+    switch (s.response) {
+        case ResponseMethod::massSplit:
+            return std::make_unique<ImpulseResponse>(s.device, bodies, pairs);
+        case ResponseMethod::racy: return std::make_unique<RacyResponse>(s.device);
+        case ResponseMethod::atomic: return std::make_unique<AtomicResponse>(s.device);
+        case ResponseMethod::jacobi:
+            return std::make_unique<JacobiResponse>(s.device, bodies, pairs, rules);
+        case ResponseMethod::coloured:
+            return std::make_unique<ColouredResponse>(s.device, bodies, pairs, rules);
+        default: break;
+    }
+    throw InputError("response " + name(s.response) + ": not in this build");
+}
+
+}  // namespace ballpit
