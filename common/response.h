@@ -45,6 +45,8 @@ class Response {
 public:
     virtual ~Response() = default;
     virtual StepKind stepKind() const { return StepKind::rounds; }
+    /// The smallest restitution above 0 that it can give, or 0 if it can give any.
+    virtual float leastRestitution() const { return 0.0f; }
     /// Enqueues the kernels of one round; never waits for the device.
     virtual void resolve(const ResponseRound& round) = 0;
     /// The last step was good and stays: what a response remembers of it counts from now on.

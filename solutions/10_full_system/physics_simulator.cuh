@@ -17,6 +17,7 @@
 #include "10_full_system/simulator_settings.h"
 #include "10_full_system/step_parts.cuh"
 #include "11_stability/make_response.cuh"
+#include "11_stability/reach.cuh"
 #include "common/launch_recording.cuh"
 #include "common/readback.cuh"
 #include "common/rigid_body.cuh"
@@ -34,6 +35,7 @@ public:
           grid_(settings.device, settings.bounds, settings.cellSize, count_),
           pairs_(settings.device, static_cast<std::size_t>(count_), settings.firstPairCapacity()),
           response_(makeResponse(settings_)),
+          grown_(settings.device, movesInSubsteps() ? static_cast<std::size_t>(count_) : 0, "grown"),
           status_(settings.device),
           scratch_(settings.device, 0, "scratch"),
           timer_(settings.device) {
@@ -49,6 +51,7 @@ public:
     StepStats step() {
         const StepStats stats = attemptUntilComplete();
         bodies_.commit(next_);
+        response_->commit();
         ++stepsDone_;
         return stats;
     }
@@ -125,10 +128,45 @@ public:
 
     /// Resolves the listed pairs, `from` to `to`.
     void resolveCollisions(RigidBodySystem::Copies from, RigidBodySystem::Copies to,
-                           float motionShare) {
+                           float motionShare, bool newPairs = true) {
         timer_.start("response");
         response_->resolve({count_, bodies_.view(from), bodies_.view(to), pairs_.view(),
-                            0.5f * grid_.cellSize, motionShare, status_.view()});
+                            0.5f * grid_.cellSize, motionShare, status_.view(), newPairs});
+    }
+
+    // The stages of a substep, for a response that wants several on one list of pairs.
+
+    /// Moves the bodies freely for a substep, in the arrays where they are or into others; walls are
+    /// the response's. Hashes them as well, in case the grid is built next.
+    void moveFreely(RigidBodySystem::Copies from, RigidBodySystem::Copies to) {
+        timer_.start("integrate + hash");
+        const float h = settings_.dt / static_cast<float>(*settings_.substeps);
+        launch<integrateAndHash>(settings_.device, count_, bodies_.view(from), bodies_.view(to),
+                                 MotionSettings{settings_.gravity, settings_.damping, h, noWalls()},
+                                 grid_.view(), grid_.hashes.view(), grid_.indices.view(),
+                                 status_.view());
+    }
+
+    /// Lists all pairs that can meet in the next `moves` substeps.
+    void detectWithinReach(RigidBodySystem::Copies copies, int moves) {
+        timer_.start("broad phase");
+        const float h = settings_.dt / static_cast<float>(*settings_.substeps);
+        const BodiesView bodies = bodies_.view(copies);
+        launch<growByReach>(settings_.device, count_, bodies,
+                            ReachSettings{static_cast<float>(moves) * h, length(settings_.gravity),
+                                          reachSlack, 0.5f * grid_.cellSize},
+                            grown_.view());
+        findPairsGrid(settings_.device, count_, grid_.view(), grid_.sortedHashes.view(),
+                      grown_.view(), pairs_, status_.view(), scratch_);
+        launch<clearTouching>(settings_.device, 1, status_.view());
+        launch<countTouching>(settings_.device, count_, bodies.positions, pairs_.view(),
+                              status_.view());
+    }
+
+    /// Reports a body that has left its reach.
+    void checkReach(RigidBodySystem::Copies copies) {
+        launch<reportReach>(settings_.device, count_, bodies_.view(copies), grown_.view(),
+                            status_.view());
     }
 
 private:
@@ -162,16 +200,29 @@ private:
                              " m does not fit between the walls");
     }
 
+    /// A response may be unable to stop a body dead.
+    void requireRestitution() const {
+        const float least = response_->leastRestitution();
+        if (bodies_.smallestRestitution() < least)
+            throw InputError("restitution " + std::to_string(bodies_.smallestRestitution()) +
+                             ": the response " + name(settings_.response) + " needs at least " +
+                             std::to_string(least) + "; any restitution can have " +
+                             name(ResponseMethod::coloured) + " or " +
+                             name(ResponseMethod::smallSteps));
+    }
+
     /// Repeats the step until nothing was cut short. Leaves the result in next_.
     StepStats attemptUntilComplete() {
         const auto start = std::chrono::steady_clock::now();
         requireBallsFit();
+        requireRestitution();
+        if (movesInSubsteps()) makeRoomToReach();
         StepStats stats;
         const auto capacityBefore = static_cast<std::uint32_t>(pairs_.pairs.count());
         // With several rounds, balls move while the grid stays. If a ball of the largest radius
         // has no room to move at all, the grid must follow in any case.
-        const bool noRoom = 2.0f * bodies_.largestRadius() >= settings_.cellSize;
-        bool rebuild = settings_.iterations > 1 && (noRoom || stepsDone_ < rebuildUntil_);
+        const bool noRoom = 2.0f * bodies_.largestRadius() >= grid_.cellSize;
+        bool rebuild = gridCanGoStale() && (noRoom || stepsDone_ < rebuildUntil_);
         for (;;) {
             const StepStatus status = attempt(rebuild);
             requireCountable(status);
@@ -181,7 +232,7 @@ private:
                 continue;
             }
             requireFinite(status);
-            if (status.staleGrid && settings_.iterations > 1 && !rebuild) {
+            if (status.staleGrid && gridCanGoStale() && !rebuild) {
                 rebuild = true;
                 rebuildUntil_ = stepsDone_ + rebuildSteps;
                 continue;
@@ -248,8 +299,50 @@ private:
         return (copy + distance) % RigidBodySystem::copyCount;
     }
 
+    bool movesInSubsteps() const { return response_->stepKind() == StepKind::substeps; }
+
+    /// True if bodies move between the build of the grid and its last use.
+    bool gridCanGoStale() const {
+        return movesInSubsteps() ? settings_.substeps > 1 : settings_.iterations > 1;
+    }
+
+    /// Makes the cells larger than the balls, so that these can reach beyond themselves.
+    void makeRoomToReach() {
+        const float wanted = roomToReach * 2.0f * bodies_.largestRadius();
+        if (grid_.cellSize >= wanted) return;
+        grid_ = UniformGrid(settings_.device, settings_.bounds, wanted, count_);
+        recordings_.clear();
+    }
+
+    /// Enqueues a step of substeps: a list of pairs for all of them, or, to be on the safe side, for
+    /// each. With a list for each, a body may move as far as it likes, as with one round a step.
+    Copies enqueueSubsteps(Copies from, bool rebuild) {
+        launch<clearStatus>(settings_.device, 1, status_.view());
+        Copies now = from;
+        for (int substep = 0; substep < settings_.substeps; ++substep) {
+            const Copies moved{substep == 0 ? following(from.moving, 1) : now.moving, now.fixed};
+            moveFreely(now, moved);
+            now = moved;
+            const bool newPairs = substep == 0 || rebuild;
+            if (newPairs) {
+                now = sortInto(from, now);
+                detectWithinReach(now, rebuild ? 0 : *settings_.substeps - 1);
+            } else {
+                checkReach(now);
+            }
+            const Copies resolved{otherWorkingCopy(from.moving, now.moving), now.fixed};
+            resolveCollisions(now, resolved, unlimitedMotion, newPairs);
+            now = resolved;
+            if (!rebuild) checkReach(now);
+        }
+        timer_.stop();
+        status_.enqueueCopy();
+        return now;
+    }
+
     /// Enqueues all stages and returns the copies that will hold the result.
     Copies enqueueStep(Copies from, bool rebuild) {
+        if (movesInSubsteps()) return enqueueSubsteps(from, rebuild);
         launch<clearStatus>(settings_.device, 1, status_.view());
         Copies now{following(from.moving, 1), from.fixed};
         integrate(from, now);
@@ -285,6 +378,8 @@ private:
     }
 
     static constexpr float unlimitedMotion = 1e30f;
+    /// With substeps: a ball's reach beyond its expected way, in radii; cells, in diameters.
+    static constexpr float reachSlack = 0.05f, roomToReach = 1.4f;
     /// How many steps the grid is built in every round after it once went stale: trying first
     /// without would nearly always be in vain then.
     static constexpr long rebuildSteps = 16;
@@ -295,6 +390,7 @@ private:
     UniformGrid grid_;
     PairList pairs_;
     std::unique_ptr<Response> response_;
+    DeviceBuffer<Vec4> grown_;  ///< balls grown by their reach
     Readback<StepStatus> status_;
     Scratch scratch_;
     StageTimer timer_;

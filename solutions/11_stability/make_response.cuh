@@ -7,6 +7,8 @@
 #include "10_full_system/simulator_settings.h"
 #include "11_stability/coloured_response.cuh"
 #include "11_stability/jacobi_response.cuh"
+#include "11_stability/penalty.cuh"
+#include "11_stability/small_steps.cuh"
 
 namespace ballpit {
 
@@ -15,6 +17,7 @@ inline std::unique_ptr<Response> makeResponse(const SimulatorSettings& s) {
     const auto bodies = static_cast<std::size_t>(s.objects);
     const std::size_t pairs = s.firstPairCapacity();
     const ContactRules rules{*s.relaxation, *s.positionShare, *s.restitutionThreshold};
+    const float h = s.dt / static_cast<float>(*s.substeps);
     switch (s.response) {
         case ResponseMethod::massSplit:
             return std::make_unique<ImpulseResponse>(s.device, bodies, pairs);
@@ -24,6 +27,12 @@ inline std::unique_ptr<Response> makeResponse(const SimulatorSettings& s) {
             return std::make_unique<JacobiResponse>(s.device, bodies, pairs, rules);
         case ResponseMethod::coloured:
             return std::make_unique<ColouredResponse>(s.device, bodies, pairs, rules);
+        case ResponseMethod::smallSteps:
+            return std::make_unique<SmallSteps>(
+                s.device, bodies, pairs,
+                SmallStepSettings{h, *s.iterations, *s.restitutionThreshold, s.bounds});
+        case ResponseMethod::penalty:
+            return std::make_unique<PenaltyResponse>(s.device, bodies, pairs, h, s.bounds);
         default: break;
     }
     throw InputError("response " + name(s.response) + ": not in this build");
