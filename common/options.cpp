@@ -36,7 +36,7 @@ void addResponseOptions(CLI::App& app, Options& o) {
                    "detect and resolve rounds a step; with warm and small-steps: passes a substep "
                    "(default: 2, warm 8, small-steps 1)");
     app.add_option("--substeps", o.knobs.substeps,
-                   "moves a step, of warm, small-steps, penalty (default: 1, 6, 16)");
+                   "moves a step, with small-steps (default: 6) or penalty (default: 16)");
     app.add_option("--relaxation", o.knobs.relaxation,
                    "share of each impulse that jacobi uses (default: 1)");
     app.add_option("--restitution-threshold", o.knobs.restitutionThreshold,

@@ -36,7 +36,7 @@ const std::vector<Method>& methods() {
         {atomic, "atomic", 2, 1, 1, 0, rounds, none, none, none, none},
         {jacobi, "jacobi", 2, 1, 1, 0, rounds, none, Range{0.01, 2.0}, anySpeed, someOfAll},
         {coloured, "coloured", 2, 1, 1, 0, rounds, none, none, anySpeed, someOfAll},
-        {warm, "warm", 8, 1, 0.2f, 2, rounds, rounds, none, anySpeed, someOfAll},
+        {warm, "warm", 8, 1, 0.2f, 2, rounds, none, none, anySpeed, someOfAll},
         {smallSteps, "small-steps", 1, 6, 1, 2, rounds, rounds, none, anySpeed, none},
         {penalty, "penalty", 1, 16, 1, 0, none, rounds, none, none, none}};
     return table;

@@ -9,6 +9,7 @@
 #include "11_stability/jacobi_response.cuh"
 #include "11_stability/penalty.cuh"
 #include "11_stability/small_steps.cuh"
+#include "11_stability/warm_response.cuh"
 
 namespace ballpit {
 
@@ -33,9 +34,13 @@ inline std::unique_ptr<Response> makeResponse(const SimulatorSettings& s) {
                 SmallStepSettings{h, *s.iterations, *s.restitutionThreshold, s.bounds});
         case ResponseMethod::penalty:
             return std::make_unique<PenaltyResponse>(s.device, bodies, pairs, h, s.bounds);
-        default: break;
+        case ResponseMethod::warm:
+            return std::make_unique<WarmResponse>(
+                s.device, bodies, pairs,
+                WarmSettings{h, *s.iterations, *s.positionShare, *s.restitutionThreshold,
+                             s.bounds});
     }
-    throw InputError("response " + name(s.response) + ": not in this build");
+    throw std::logic_error("a response without a case");
 }
 
 }  // namespace ballpit

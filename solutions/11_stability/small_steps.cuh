@@ -28,6 +28,7 @@ struct SmallStepView {
     ResponseRound round;
     View<Vec4> corrections;  ///< by body: m; w: 1 / mass
     View<float> pushes;      ///< by pair: what it pushed in this substep, kg m
+    float share;             ///< of an overlap, that a push takes away
 };
 
 HD inline void clearCorrection(int i, SmallStepView view) {
@@ -46,7 +47,7 @@ HD inline void pushApart(std::uint32_t k, SmallStepView view, bool firstPass) {
     if (lengthSquared(line) >= reach * reach) return;
     if (lengthSquared(line) == 0.0f) line = lineOfCentres(a, b, bodies);
     const float distance = length(line);
-    const float push = pushAlongNormal(reach - distance, changeA.w + changeB.w);
+    const float push = pushAlongNormal(view.share * (reach - distance), changeA.w + changeB.w);
     const Vec3 normal = (1.0f / distance) * line;
     changeA = withW(xyz(changeA) - (push * changeA.w) * normal, changeA.w);
     changeB = withW(xyz(changeB) + (push * changeB.w) * normal, changeB.w);
@@ -129,7 +130,7 @@ public:
     StepKind stepKind() const override { return StepKind::substeps; }
 
     void resolve(const ResponseRound& round) override {
-        const SmallStepView view{round, corrections_.view(), pushes_.view()};
+        const SmallStepView view{round, corrections_.view(), pushes_.view(), 1.0f};
         if (round.newPairs) colouring_.colour(round.pairs);
         launch<clearCorrection>(device_, round.bodyCount, view);
         for (int pass = 0; pass < settings_.passes; ++pass) {
