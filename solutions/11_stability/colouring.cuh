@@ -109,8 +109,8 @@ HD void visitShare(int thread, int threads, const PairsView& pairs, Visit visit)
 HD inline void clearBodyColours(int i, ColouringView view) {
     view.bodies[i] = {0, 0};
     view.best[i] = 0xFFFFFFFFu;
-    if (i <= colourCount) view.counts[i] = 0;
 }
+HD inline void clearCount(int colour, ColouringView view) { view.counts[colour] = 0; }
 
 HD inline void clearPairColours(int thread, int threads, ColouringView view) {
     visitShare(thread, threads, view.pairs, [&](std::uint32_t k) { view.colours[k] = noColour; });
@@ -183,7 +183,7 @@ public:
           bodies_(device, bodyCount, "bodyColours"),
           best_(device, bodyCount, "bestPriorities"),
           lists_(device, colourCount * largestColour(bodyCount), "colourLists"),
-          counts_(device, colourCount + 1, "colourCounts"),
+          counts_(device, colourCount, "colourCounts"),
           colours_(device, pairCapacity, "pairColours"),
           overflowFlags_(device, pairCapacity, "overflowFlags"),
           overflowStarts_(device, pairCapacity + 1, "overflowStarts"),
@@ -210,7 +210,8 @@ public:
                  overflow_.view(),
                  static_cast<std::uint32_t>(largestColour(bodies_.count()))};
         const int bodyCount = static_cast<int>(bodies_.count());
-        launch<clearBodyColours>(device_, std::max(bodyCount, colourCount + 1), view_);
+        launch<clearBodyColours>(device_, bodyCount, view_);
+        launch<clearCount>(device_, colourCount, view_);
         inRounds ? colourInRounds(bodyCount) : launch<colourInOrder>(device_, 1, view_);
         const int threads = inRounds ? bodyCount : 1;
         launch<listColours>(device_, threads, threads, view_);

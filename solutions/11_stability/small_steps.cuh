@@ -71,14 +71,16 @@ HD inline void keepInside(int i, SmallStepView view, Bounds walls) {
     change.z += backInside(sphere.z + change.z, walls.lower.z + r, walls.upper.z - r);
 }
 
-/// Along one axis: the velocity of a body on which a wall pushes if it came with `before` m/s.
+/// Along one axis: the velocity of a body that came with `before` m/s and got to `place` freely. A
+/// wall in its way reverses it, or, if it was slow, keeps it from going on. (Asking where the walls
+/// have put the body instead would leave the answer to rounding.)
 HD inline float bouncedOffWall(float velocity, float before, float place, float lower, float upper,
                                float restitution, float threshold) {
-    const bool meetsLower = place <= lower && before < 0.0f;
-    const bool meetsUpper = place >= upper && before > 0.0f;
+    const bool meetsLower = place < lower && before < 0.0f;
+    const bool meetsUpper = place > upper && before > 0.0f;
     if (!meetsLower && !meetsUpper) return velocity;
-    const float speed = before < 0.0f ? -before : before;
-    return speed > threshold ? -restitution * before : 0.0f;
+    if (maximum(before, -before) > threshold) return -restitution * before;
+    return meetsLower ? maximum(velocity, 0.0f) : minimum(velocity, 0.0f);
 }
 
 /// Body i's place, and its velocity from the way it made.
@@ -90,11 +92,11 @@ HD inline void velocityFromPositions(int i, SmallStepView view, SmallStepSetting
     Vec3 velocity = xyz(moving) + (1.0f / settings.h) * change;
     const float r = sphere.w, e = from.restitutions[i], least = settings.restitutionThreshold;
     const Bounds& walls = settings.walls;
-    velocity.x = bouncedOffWall(velocity.x, moving.x, place.x, walls.lower.x + r,
+    velocity.x = bouncedOffWall(velocity.x, moving.x, sphere.x, walls.lower.x + r,
                                 walls.upper.x - r, e, least);
-    velocity.y = bouncedOffWall(velocity.y, moving.y, place.y, walls.lower.y + r,
+    velocity.y = bouncedOffWall(velocity.y, moving.y, sphere.y, walls.lower.y + r,
                                 walls.upper.y - r, e, least);
-    velocity.z = bouncedOffWall(velocity.z, moving.z, place.z, walls.lower.z + r,
+    velocity.z = bouncedOffWall(velocity.z, moving.z, sphere.z, walls.lower.z + r,
                                 walls.upper.z - r, e, least);
     to.positions[i] = withW(place, r);
     to.velocities[i] = withW(velocity, moving.w);
