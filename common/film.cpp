@@ -30,7 +30,6 @@ struct Film::Crew {
     SphereRenderer renderer;
     std::optional<VideoRecorder> recorder;
     std::string png;
-    Frame last;
 };
 
 Film::Film(const Options& options, Bounds world) {
@@ -43,8 +42,7 @@ Film::~Film() = default;
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
                    const std::vector<Vec3>& colors) {
     crew_->renderer.draw(positions, radii, colors);
-    crew_->last = crew_->renderer.read();
-    if (crew_->recorder) crew_->recorder->captureFrame(crew_->last);
+    if (crew_->recorder) crew_->recorder->captureFrame();
 }
 
 void Film::walkAround(float degrees) {
@@ -58,7 +56,7 @@ void Film::walkAround(float degrees) {
 void Film::finish() {
     if (!crew_) return;
     if (crew_->recorder) crew_->recorder->release();
-    if (!crew_->png.empty()) writePng(crew_->png, crew_->last);
+    if (!crew_->png.empty()) writePng(crew_->png, crew_->renderer.read());
 }
 
 }  // namespace ballpit
