@@ -86,6 +86,7 @@ void VideoFile::writeHeader(const AVCodecContext& encoder) {
     AVDictionary* options = nullptr;
     if (isFragmented())
         av_dict_set(&options, "movflags", "+frag_every_frame+empty_moov+default_base_moof", 0);
+    av_dict_set(&options, "cluster_time_limit", "200", 0);  // ms that MKV keeps back; others: none
     const int result = avformat_write_header(file_.get(), &options);
     av_dict_free(&options);
     if (result < 0 || file_->pb->error < 0)
