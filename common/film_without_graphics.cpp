@@ -10,9 +10,9 @@ struct Film::Crew {};
 Film::Film(const Options& options, Bounds) {
     if (!options.out.empty() || !options.png.empty())
         throw InputError(
-            "this build has no graphics, so --out and --png cannot be used: install libegl-dev "
-            "libgl-dev libglew-dev libavcodec-dev libavformat-dev libswscale-dev and configure "
-            "again, or leave them away");
+            "this build has no graphics, so --out and --png cannot be used: install the packages "
+            "named in docs/dependencies.md and configure again, or leave them "
+            "away");
 }
 
 Film::~Film() = default;
