@@ -10,6 +10,7 @@ from memory. --keep saves what ncu prints; --read makes the tables from that, wi
 import argparse
 import csv
 import re
+import shutil
 import subprocess
 import sys
 from functools import partial
@@ -95,12 +96,12 @@ PROFILES = {
                     Row(["search, cell by cell"], "countAround", template="ILb0E"),
                     Row(["search, row by row"], "countAround", template="ILb1E")])],
     "06": [Profile("06_broad_phase", "", 8 * MILLION,
-                   ["kernel", "warps waiting for memory, per instruction",
+                   ["kernel", "cycles waiting for memory, per instruction",
                     "hits in the L2 cache", "memory bus in use"],
                    {WAITING: plain, L2_HITS: percent, BUS: percent},
                    [kernel("broadPhaseCollision"), kernel("writePairs")])],
     "07": [Profile("07_impulse_response", "", MILLION,
-                   ["kernel", "balls", "warps waiting for memory, per instruction",
+                   ["kernel", "balls", "cycles waiting for memory, per instruction",
                     "memory bus in use"], {WAITING: plain, BUS: percent},
                    [Row([f"`{name}`", "1000000"], name)
                     for name in ["collisionResponseRacy", "collisionResponseAtomic", "linkAndCount",
@@ -185,6 +186,11 @@ def main():
     parser.add_argument("--keep", type=Path, metavar="FOLDER", help="saves what ncu prints there")
     parser.add_argument("--read", type=Path, metavar="FOLDER", help="takes it from there")
     args = parser.parse_args()
+    for tool, owner in {"nvidia-smi": "NVIDIA's driver", "ncu": "Nsight Compute"}.items():
+        if not args.read and not shutil.which(tool):
+            print(f"error: '{tool}' was not found: install {owner} or put it on the PATH, or read "
+                  "what was kept elsewhere (--read)", file=sys.stderr)
+            return 2
     where = kept("machine.txt", args.keep, args.read,
                  lambda: f"{', '.join(machine('cuda'))}, commit {commit()}")
     failed = False

@@ -2,6 +2,7 @@
 # Everything that only a real GPU can show: builds with CUDA, then tests, CPU and GPU hashes side by
 # side, compute-sanitizer, the bench, and the price of exactness. For machines with an NVIDIA GPU.
 #     tools/verify_gpu.sh OUT_FOLDER [build|hashes|checks|tests|sanitizer|...]
+# The part `lessons`, only on request, measures the lessons' tables in docs/results anew.
 set -u
 cd "$(dirname "$0")/.."
 out=${1:?usage: tools/verify_gpu.sh OUT_FOLDER [part ...]}
@@ -78,6 +79,10 @@ for part in $parts; do
         done
         ;;
     bench) run $bin/ballpit_bench --device cuda --csv "$out/bench_cuda.csv" | tee "$out/bench_cuda.txt" ;;
+    lessons)
+        run python3 tools/measure_chapters.py --cuda
+        run python3 tools/profile_chapters.py --keep "$out/ncu"
+        ;;
     exactness)
         run configure cuda-release -B build/cuda-inexact -DBALLPIT_EXACT=OFF -DBUILD_TESTING=OFF >/dev/null
         run cmake --build build/cuda-inexact --target ballpit_bench >/dev/null
