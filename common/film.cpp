@@ -2,18 +2,27 @@
 #include "common/film.h"
 
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <optional>
 
 #include "08_sphere_rendering/sphere_renderer.h"
 #include "09_video_recording/video_recorder.h"
 #include "common/offscreen_context.h"
+#include "common/timing.h"
 
 namespace ballpit {
 
 namespace {
 
 constexpr int framesPerSecond = 60;
+
+/// How fast frames were made: simulated, drawn, read, encoded and written.
+void tellSpeed(const VideoRecorder& recorder, double milliseconds) {
+    std::fprintf(stderr, "recorded %d frames in %.2f s: %.1f frames a second, with %s\n",
+                 recorder.frameCount(), 1e-3 * milliseconds,
+                 1e3 * recorder.frameCount() / milliseconds, recorder.encoderName().c_str());
+}
 
 }  // namespace
 
@@ -30,7 +39,7 @@ struct Film::Crew {
     SphereRenderer renderer;
     std::optional<VideoRecorder> recorder;
     std::string png;
-    Frame last;
+    double start = 0;  // of the first frame, ms
 };
 
 Film::Film(const Options& options, Bounds world) {
@@ -42,9 +51,9 @@ Film::~Film() = default;
 
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
                    const std::vector<Vec3>& colors) {
+    if (crew_->start == 0) crew_->start = milliseconds();
     crew_->renderer.draw(positions, radii, colors);
-    crew_->last = crew_->renderer.read();
-    if (crew_->recorder) crew_->recorder->captureFrame(crew_->last);
+    if (crew_->recorder) crew_->recorder->captureFrame();
 }
 
 void Film::walkAround(float degrees) {
@@ -57,8 +66,11 @@ void Film::walkAround(float degrees) {
 
 void Film::finish() {
     if (!crew_) return;
-    if (crew_->recorder) crew_->recorder->release();
-    if (!crew_->png.empty()) writePng(crew_->png, crew_->last);
+    if (crew_->recorder) {
+        crew_->recorder->release();
+        tellSpeed(*crew_->recorder, milliseconds() - crew_->start);
+    }
+    if (!crew_->png.empty()) writePng(crew_->png, crew_->renderer.read());
 }
 
 }  // namespace ballpit

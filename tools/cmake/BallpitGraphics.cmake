@@ -36,6 +36,9 @@ if(BALLPIT_WITH_GRAPHICS)
     set(studio_sources
         common/film.cpp
         solutions/08_sphere_rendering/sphere_renderer.cpp
+        solutions/09_video_recording/encoder_choice.cpp
+        solutions/09_video_recording/stream_copy.cpp
+        solutions/09_video_recording/video_file.cpp
         solutions/09_video_recording/video_recorder.cpp)
 else()
     message(STATUS "Graphics: no (physics, tests of physics and the bench are built)")
