@@ -1,4 +1,5 @@
-// Balls in double precision, what a collision does to two of them, and their sums: energy, momentum.
+// Balls in double precision, what a collision does to two of them, and their sums: energy,
+// momentum.
 #pragma once
 
 #include <algorithm>
@@ -25,15 +26,16 @@ inline double combinedRestitution(const Ball& a, const Ball& b) {
 /// m_eff = 1 / (1/m_a + 1/m_b), kg.
 inline double effectiveMass(double a, double b) { return 1 / (1 / a + 1 / b); }
 
-/// How fast b leaves a along the unit vector `normal` from a to b, m/s: negative while they approach.
+/// How fast b leaves a along the unit vector `normal` from a to b, m/s: negative while they
+/// approach.
 inline double separationSpeed(const Ball& a, const Ball& b, Vector normal) {
     return dot(b.velocity - a.velocity, normal);
 }
 
 /// The impulse J = -(1 + e) v_n m_eff on b along `normal`, its opposite on a. Returns J, N s.
 inline double collide(Ball& a, Ball& b, Vector normal, double restitution) {
-    const double impulse = -(1 + restitution) * separationSpeed(a, b, normal) *
-                           effectiveMass(a.mass, b.mass);
+    const double impulse =
+        -(1 + restitution) * separationSpeed(a, b, normal) * effectiveMass(a.mass, b.mass);
     a.velocity -= (impulse / a.mass) * normal;
     b.velocity += (impulse / b.mass) * normal;
     return impulse;

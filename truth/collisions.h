@@ -27,15 +27,16 @@ inline double energyLost(double m1, double m2, double approachSpeed, double e) {
 
 /// By how much the relative velocity turns, rad, when it misses the centre by `impactParameter` b
 /// (m) and the balls touch at the distance sigma (m). The normal makes the angle a with it, with
-/// sin a = b / sigma; the tangential part stays, the normal part comes back times e. For e = 1 it is
-/// 2 acos(b / sigma).
+/// sin a = b / sigma; the tangential part stays, the normal part comes back times e. For e = 1 it
+/// is 2 acos(b / sigma).
 inline double scatteringAngle(double impactParameter, double sigma, double e) {
     const double a = std::asin(impactParameter / sigma);
     return std::numbers::pi - a - std::atan2(std::sin(a), e * std::cos(a));
 }
 
 /// E'/E after one plain sum of pair impulses: a hub of mass m_h runs into k resting spokes of mass
-/// m_s at once, each at the cosine c to its way. S = k c^2, B = m_s / (m_s + m_h):
+/// m_s at once, evenly around its way and each at the cosine c to it. S = k c^2, B = m_s / (m_s +
+/// m_h):
 ///     E'/E = 1 - (1 + e) B S [2 - (1 + e) (B S + 1 - B)]
 inline double hubAndSpokesEnergy(double e, double S, double B) {
     return 1 - (1 + e) * B * S * (2 - (1 + e) * (B * S + 1 - B));
@@ -55,8 +56,8 @@ inline std::vector<double> cradleOneByOne(int count) {
 }
 
 /// The same by all contacts at once, each asked to end with -e times the approach it began with:
-/// all but the first leave with the same w, the first with w - e, and momentum gives w = (1 + e) / n.
-/// Momentum and, for e = 1, energy are kept, and yet no cradle does this.
+/// all but the first leave with the same w, the first with w - e, and momentum gives w = (1 + e) /
+/// n. Momentum and, for e = 1, energy are kept, and yet no cradle does this.
 inline std::vector<double> cradleAtOnce(int count, double e) {
     const double together = (1 + e) / count;
     std::vector<double> speeds(static_cast<std::size_t>(count), together);
@@ -73,8 +74,8 @@ inline double impulseAppliedShare(double travel) {
 }
 
 /// Root mean square error of the scattering angle, rad, since the normal is taken late: up to v_rel
-/// dt after contact. First order in s = v_rel dt / r: the angle errs by 2 x b / sigma^2 at the depth
-/// x, with <x^2> = (v_rel dt)^2 / 3 and <b^2> = sigma^2 / 2.
+/// dt after contact. First order in s = v_rel dt / r: the angle errs by 2 x b / sigma^2 at the
+/// depth x, with <x^2> = (v_rel dt)^2 / 3 and <b^2> = sigma^2 / 2.
 inline double lateNormalAngleError(double s) { return s / std::sqrt(6.0); }
 
 /// Share of the momentum along the line of flight that the late normal leaves untransferred, first

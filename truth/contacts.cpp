@@ -26,9 +26,8 @@ std::vector<Wall> wallsOf(const Box& box) {
 std::vector<Contact> touchingBalls(const Balls& balls) {
     std::vector<int> alongX(balls.size());
     std::iota(alongX.begin(), alongX.end(), 0);
-    std::sort(alongX.begin(), alongX.end(), [&](int a, int b) {
-        return balls[at(a)].position.x < balls[at(b)].position.x;
-    });
+    std::sort(alongX.begin(), alongX.end(),
+              [&](int a, int b) { return balls[at(a)].position.x < balls[at(b)].position.x; });
     double largest = 0;
     for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
 
@@ -41,7 +40,8 @@ std::vector<Contact> touchingBalls(const Balls& balls) {
             const Vector line = other.position - ball.position;
             const double reach = ball.radius + other.radius;
             if (dot(line, line) < reach * reach)
-                contacts.push_back({std::min(alongX[i], alongX[j]), std::max(alongX[i], alongX[j])});
+                contacts.push_back(
+                    {std::min(alongX[i], alongX[j]), std::max(alongX[i], alongX[j])});
         }
     }
     std::sort(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
@@ -50,11 +50,13 @@ std::vector<Contact> touchingBalls(const Balls& balls) {
     return contacts;
 }
 
-std::vector<Contact> touchingWalls(const Balls& balls, const std::vector<Wall>& walls) {
+std::vector<Contact> touchingEverything(const Balls& balls, const std::vector<Wall>& walls) {
     std::vector<Contact> contacts;
     for (int w = 0; w < static_cast<int>(walls.size()); ++w)
         for (int k = 0; k < static_cast<int>(balls.size()); ++k)
             if (geometryOf({~w, k}, balls, walls).penetration > 0) contacts.push_back({~w, k});
+    const std::vector<Contact> pairs = touchingBalls(balls);
+    contacts.insert(contacts.end(), pairs.begin(), pairs.end());
     return contacts;
 }
 
@@ -69,6 +71,11 @@ Geometry geometryOf(const Contact& contact, const Balls& balls, const std::vecto
     const double distance = length(line);
     const Vector normal = distance > 0 ? (1 / distance) * line : Vector{0, 1, 0};
     return {normal, a.radius + b.radius - distance};
+}
+
+double restitutionOf(const Contact& contact, const Balls& balls) {
+    const Ball& b = balls[at(contact.b)];
+    return contact.a < 0 ? b.restitution : combinedRestitution(balls[at(contact.a)], b);
 }
 
 double inverseMassSum(const Contact& contact, const Balls& balls) {

@@ -22,16 +22,19 @@ struct Contact {
 /// All pairs of balls that overlap, in the order of (a, b), a < b.
 std::vector<Contact> touchingBalls(const Balls& balls);
 
-/// All balls that overlap a wall.
-std::vector<Contact> touchingWalls(const Balls& balls, const std::vector<Wall>& walls);
+/// All balls that overlap a wall, and behind them all pairs of balls that overlap.
+std::vector<Contact> touchingEverything(const Balls& balls, const std::vector<Wall>& walls);
 
-/// Where a contact stands now: the unit vector from a (or out of the wall) to b, and the overlap, m.
-/// Coincident centres have no direction: the ball with the smaller number then lies below.
+/// Where a contact stands now: the unit vector from a (or out of the wall) to b, and the overlap,
+/// m. Coincident centres have no direction: the ball with the smaller number then lies below.
 struct Geometry {
     Vector normal;
     double penetration;
 };
 Geometry geometryOf(const Contact& contact, const Balls& balls, const std::vector<Wall>& walls);
+
+/// Of two balls the smaller; against a wall, the ball's own.
+double restitutionOf(const Contact& contact, const Balls& balls);
 
 /// 1/m_a + 1/m_b, 1/kg; a wall has infinite mass.
 double inverseMassSum(const Contact& contact, const Balls& balls);

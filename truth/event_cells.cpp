@@ -24,8 +24,8 @@ EventCells::EventCells(const Balls& balls, const Box& box, bool periodic)
         Cell cell;
         for (int axis = 0; axis < 3; ++axis) {
             const double inside = ball.position[axis] - box.lower[axis];
-            cell[axis] = std::clamp(static_cast<int>(inside / cellSize_[axis]), 0,
-                                    resolution_[axis] - 1);
+            cell[axis] =
+                std::clamp(static_cast<int>(inside / cellSize_[axis]), 0, resolution_[axis] - 1);
         }
         members_[indexOf(cell)].push_back(static_cast<int>(cellOf_.size()));
         cellOf_.push_back(cell);

@@ -40,8 +40,8 @@ public:
     /// Where a face of a cell lies along its axis, m.
     double facePosition(Cell cell, int face) const;
 
-    /// The ball goes through that face into the next cell. Returns how far that carries it along the
-    /// axis, m: 0 unless it went through a periodic side and comes in on the other.
+    /// The ball goes through that face into the next cell. Returns how far that carries it along
+    /// the axis, m: 0 unless it went through a periodic side and comes in on the other.
     double cross(int ball, int face);
 
     /// From one place to the nearest image of the other, m.

@@ -55,12 +55,11 @@ void EventDriven::predictAll() {
 /// `a` is up to date. Gravity is the same for both, so it drops out at a common moment.
 void EventDriven::predictPair(int a, int b) {
     const Ball &ball = balls_[at(a)], other = asOfNow(b);
-    const double wait =
-        timeToTouch(cells_.lineBetween(ball.position, other.position),
-                    other.velocity - ball.velocity, ball.radius + other.radius);
+    const double wait = timeToTouch(cells_.lineBetween(ball.position, other.position),
+                                    other.velocity - ball.velocity, ball.radius + other.radius);
     if (wait == never) return;
-    queue_.push({now_ + wait, Kind::collision, a, b, collisionCount_[at(a)],
-                 collisionCount_[at(b)]});
+    queue_.push(
+        {now_ + wait, Kind::collision, a, b, collisionCount_[at(a)], collisionCount_[at(b)]});
 }
 
 /// With the balls of all cells from `from` to `to`, both included.

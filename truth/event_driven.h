@@ -1,9 +1,10 @@
-// Owns the event-driven simulator of hard spheres: no steps, it goes from collision to collision and
-// computes each one's moment exactly. The truth for gases, coolings and few-body collisions, as far
-// as the model goes: contacts without duration, two balls at a time, no friction.
+// Owns the event-driven simulator of hard spheres: no steps, it goes from collision to collision
+// and computes each one's moment exactly. The truth for gases, coolings and few-body collisions, as
+// far as the model goes: contacts without duration, two balls at a time, no friction.
 //
-// Cells and one queue of predicted events, as in Rapaport, "The event scheduling problem in molecular
-// dynamic simulation" (1980). A ball is brought up to date only when something happens to it.
+// Cells and one queue of predicted events, as in Rapaport, "The event scheduling problem in
+// molecular dynamic simulation" (1980). A ball is brought up to date only when something happens to
+// it.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +38,8 @@ struct EventCounts {
 
 class EventDriven {
 public:
-    /// std::invalid_argument if the balls do not fit the box (see EventCells), or if there is gravity
-    /// in a periodic one.
+    /// std::invalid_argument if the balls do not fit the box (see EventCells), or if there is
+    /// gravity in a periodic one.
     EventDriven(Balls balls, const EventSettings& settings);
 
     /// Goes on until `time`, s, or until this many more collisions (with walls too) have happened.
@@ -52,8 +53,8 @@ public:
     /// All balls as of time(); in a periodic box their positions are inside it.
     Balls balls() const;
 
-    /// How many things are wrong now: overlapping pairs, balls outside the walls, values that are not
-    /// finite. 0 in a valid state. Compares every two balls.
+    /// How many things are wrong now: overlapping pairs, balls outside the walls, values that are
+    /// not finite. 0 in a valid state. Compares every two balls.
     int invalidStates() const;
 
     /// s: mean time between two collisions (of two balls) of one ball, since counting began.
@@ -68,8 +69,8 @@ private:
     struct Event {
         double time;
         Kind kind;
-        int ball, partner;                       ///< the other ball, or the face of wall or cell
-        std::uint32_t ballCount, partnerCount;   ///< their collisions when it was predicted
+        int ball, partner;                      ///< the other ball, or the face of wall or cell
+        std::uint32_t ballCount, partnerCount;  ///< their collisions when it was predicted
         bool operator>(const Event& other) const { return time > other.time; }
     };
     using Queue = std::priority_queue<Event, std::vector<Event>, std::greater<>>;

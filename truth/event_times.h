@@ -1,4 +1,5 @@
-// When does it happen? The moments at which two flying balls touch and at which one reaches a plane.
+// When does it happen? The moments at which two flying balls touch and at which one reaches a
+// plane.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +12,11 @@ namespace ballpit::truth {
 
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Until two balls touch, s. `line` from one centre to the other, m; `velocity` of the other against
-/// the one, m/s; `reach` the sum of the radii, m. With b = line . v, c = line^2 - reach^2 the root of
-/// v^2 t^2 + 2 b t + c = 0 wanted is t = c / (-b + sqrt(b^2 - v^2 c)): this form subtracts nothing
-/// from its like. Balls that overlap already, by rounding, and approach collide at once.
+/// Until two balls touch, s. `line` from one centre to the other, m; `velocity` of the other
+/// against the one, m/s; `reach` the sum of the radii, m. With b = line . v, c = line^2 - reach^2
+/// the root of v^2 t^2 + 2 b t + c = 0 wanted is t = c / (-b + sqrt(b^2 - v^2 c)): this form
+/// subtracts nothing from its like. Balls that overlap already, by rounding, and approach collide
+/// at once.
 inline double timeToTouch(Vector line, Vector velocity, double reach) {
     const double b = dot(line, velocity);
     if (b >= 0) return never;  // they part
@@ -26,8 +28,8 @@ inline double timeToTouch(Vector line, Vector velocity, double reach) {
 }
 
 /// Until something moves outwards through a plane, s. All three numbers count outwards: its
-/// `distance` to the plane, m, its `speed`, m/s, its `acceleration`, m/s^2. What lies on the plane or,
-/// by rounding, behind it leaves at once if it moves outwards, and else when it comes back.
+/// `distance` to the plane, m, its `speed`, m/s, its `acceleration`, m/s^2. What lies on the plane
+/// or, by rounding, behind it leaves at once if it moves outwards, and else when it comes back.
 inline double timeToLeave(double distance, double speed, double acceleration) {
     const double d = std::max(distance, 0.0);
     if (acceleration == 0) return speed > 0 ? d / speed : never;

@@ -11,9 +11,7 @@ namespace ballpit::truth {
 namespace {
 
 /// In (0, 1]: all 53 bits of a double, never 0, so that its logarithm is finite.
-double uniform(Random& random) {
-    return (static_cast<double>(random.next() >> 11) + 1) * 0x1p-53;
-}
+double uniform(Random& random) { return (static_cast<double>(random.next() >> 11) + 1) * 0x1p-53; }
 
 /// Normal with mean 0 and variance 1 (Box and Muller 1958).
 double normal(Random& random) {

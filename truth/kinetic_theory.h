@@ -1,6 +1,6 @@
 // Closed forms of a gas of hard spheres: pressure, collision rate, cooling, distribution of speeds.
-// Symbols: number density rho (1/m^3), diameter sigma (m), share of volume eta = pi rho sigma^3 / 6,
-// temperature T = m <v^2> / 3 (J), mass m (kg), restitution e.
+// Symbols: number density rho (1/m^3), diameter sigma (m), share of volume eta = pi rho sigma^3 /
+// 6, temperature T = m <v^2> / 3 (J), mass m (kg), restitution e.
 #pragma once
 
 #include <cmath>
@@ -43,9 +43,7 @@ inline double haffCooling(double t, double haffTime) { return std::pow(1 + t / h
 // Maxwell and Boltzmann: every component of the velocity is normal with the variance T / m.
 
 /// <v> = sqrt(8 T / (pi m)), m/s.
-inline double meanSpeed(double T, double m) {
-    return std::sqrt(8 * T / (std::numbers::pi * m));
-}
+inline double meanSpeed(double T, double m) { return std::sqrt(8 * T / (std::numbers::pi * m)); }
 
 /// <v^4> / <v^2>^2.
 inline constexpr double fourthMomentRatio = 5.0 / 3.0;

@@ -1,4 +1,5 @@
-// Closed forms of one ball's fall and bouncing: in nature, and as semi-implicit Euler steps have it.
+// Closed forms of one ball's fall and bouncing: in nature, and as semi-implicit Euler steps have
+// it.
 #pragma once
 
 #include <cmath>
@@ -37,8 +38,8 @@ inline double shadowEnergy(Fall now, double g, double dt) {
     return 0.5 * now.speed * now.speed + g * now.height - 0.5 * g * dt * now.speed;
 }
 
-/// Height of the centre, m, at the top of bounce k of a ball of radius r dropped from h0 (bounce 0):
-/// h_k = (h0 - r) e^(2k) + r (MFIX-DEM's verification manual, case DEM02, equation 4.11).
+/// Height of the centre, m, at the top of bounce k of a ball of radius r dropped from h0 (bounce
+/// 0): h_k = (h0 - r) e^(2k) + r (MFIX-DEM's verification manual, case DEM02, equation 4.11).
 inline double bounceHeight(double h0, double r, double e, int k) {
     return (h0 - r) * std::pow(e, 2 * k) + r;
 }
@@ -48,9 +49,9 @@ inline double bouncingTime(double h0, double r, double g, double e) {
     return std::sqrt(2 * (h0 - r) / g) * (1 + e) / (1 - e);
 }
 
-/// Mean share of its energy that an elastic ball loses in a bounce at `speed` m/s, since the wall is
-/// felt only at the end of a step. Position put back on the wall: H changes by g d - g dt v with the
-/// depth d uniform in 0..v dt, on average -g dt v / 2. Left where it is: by -g dt v.
+/// Mean share of its energy that an elastic ball loses in a bounce at `speed` m/s, since the wall
+/// is felt only at the end of a step. Position put back on the wall: H changes by g d - g dt v with
+/// the depth d uniform in 0..v dt, on average -g dt v / 2. Left where it is: by -g dt v.
 inline double bounceLoss(double g, double dt, double speed, bool putBack) {
     return (putBack ? 1 : 2) * g * dt / speed;
 }

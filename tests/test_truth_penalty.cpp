@@ -1,0 +1,78 @@
+// The closed forms of a penalty contact against the integration of its motion.
+#include "tests/truth_support.h"
+#include "truth/penalty.h"
+
+using namespace ballpit::truth;
+
+namespace {
+
+struct Bounce {
+    double duration, deepest, speedAfter;
+};
+
+/// A spring and a dashpot, hit with the speed v, until it is as long as at the start; a linear one,
+/// as in the closed forms, which may pull at the end.
+Bounce integrated(double v, double k, double m, double damping, double dt) {
+    double overlap = 0, speed = v, time = 0, deepest = 0;
+    const double omega = std::sqrt(k / m);
+    do {
+        speed -= dt * (omega * omega * overlap + 2 * damping * omega * speed);
+        overlap += dt * speed;
+        time += dt;
+        deepest = std::max(deepest, overlap);
+    } while (overlap > 0);
+    return {time, deepest, -speed};
+}
+
+}  // namespace
+
+TEST_CASE("truth: the damping ratio gives the restitution back") {
+    for (const double e : {0.01, 0.2, 0.5, 0.9, 0.999}) {
+        CHECK(restitutionOf(dampingRatio(e)) == withinShare(e, 1e-12));
+        CHECK(dampingRatio(e) < 1);
+    }
+    CHECK(dampingRatio(1) == 0);
+}
+
+TEST_CASE("truth: a penalty contact lasts, sinks in and rebounds as the closed forms say") {
+    const double k = 2e4, m = 0.3, v = 1.5;
+    for (const double e : {0.2, 0.5, 0.9, 1.0}) {
+        CAPTURE(e);
+        const double z = dampingRatio(e), duration = contactTime(k, m, z);
+        const Bounce bounce = integrated(v, k, m, z, duration * 1e-5);
+        CHECK(bounce.duration == withinShare(duration, 1e-4));
+        CHECK(bounce.speedAfter == withinShare(e * v, 1e-3));
+        CHECK(bounce.deepest == withinShare(deepestPenaltyOverlap(v, k, m, z), 1e-4));
+        CHECK(stiffnessFor(bounce.deepest, v, m) >= k * (1 - 1e-4));
+    }
+    const double elastic = deepestPenaltyOverlap(v, k, m, 0);
+    CHECK(stiffnessFor(elastic, v, m) == withinShare(k, 1e-12));
+    // 20 steps a contact, in radii of 1 m.
+    const double step = contactTime(stiffnessFor(0.01, v, m), m, 0) / 20;
+    CHECK(v * step == withinShare(travelPerPenaltyStep(0.01), 1e-12));
+}
+
+TEST_CASE("truth: a spring stepped beyond 2 / omega blows up, just below it stays") {
+    const double k = 50, m = 2, longest = longestStableStep(k, m);
+    const auto largest = [&](double dt) {
+        double x = 1, v = 0, most = 0;
+        for (int n = 0; n < 5000; ++n) {
+            v -= dt * k / m * x;
+            x += dt * v;
+            most = std::max(most, std::abs(x));
+        }
+        return most;
+    };
+    CHECK(largest(0.999 * longest) < 100);
+    CHECK(largest(1.001 * longest) > 1e6);
+}
+
+TEST_CASE("truth: with 20 steps a contact the rebound is within 0.02, with 3 it gains energy") {
+    const double k = 2e4, m = 0.3;
+    for (const double e : {0.5, 0.9}) {
+        const double duration = contactTime(k, m, dampingRatio(e));
+        const Bounce fine = integrated(1, k, m, dampingRatio(e), duration / 20);
+        CHECK(fine.speedAfter == within(e, 0.02));
+    }
+    CHECK(integrated(1, k, m, 0, contactTime(k, m, 0) / 3).speedAfter > 0);
+}
