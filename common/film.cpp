@@ -8,6 +8,7 @@
 #include "08_sphere_rendering/sphere_renderer.h"
 #include "09_video_recording/video_recorder.h"
 #include "common/offscreen_context.h"
+#include "common/text.h"
 
 namespace ballpit {
 
@@ -18,31 +19,42 @@ constexpr int framesPerSecond = 60;
 }  // namespace
 
 struct Film::Crew {
-    Crew(const Options& options, Bounds world)
-        : renderer(world, options.width, options.height), png(options.png) {
-        if (!options.out.empty()) {
-            recorder.emplace(options.out, options.width, options.height, framesPerSecond);
+    Crew(const FilmOrder& order, Bounds world)
+        : renderer(world, order.width, order.height), order(order) {
+        if (!order.video.empty()) {
+            recorder.emplace(order.video, order.width, order.height, framesPerSecond);
             if (!recorder->notice().empty()) std::cerr << "note: " << recorder->notice() << '\n';
         }
     }
+    /// Members go in the reverse order, so all of OpenGL is gone before its context.
+    ~Crew() { context.makeCurrent(); }
+    Crew(const Crew&) = delete;
 
     OffscreenContext context;
     SphereRenderer renderer;
+    TextPainter painter;
     std::optional<VideoRecorder> recorder;
-    std::string png;
+    FilmOrder order;
     Frame last;
 };
 
-Film::Film(const Options& options, Bounds world) {
-    if (!options.out.empty() || !options.png.empty())
-        crew_ = std::make_unique<Crew>(options, world);
+Film::Film(const FilmOrder& order, Bounds world) {
+    if (!order.video.empty() || !order.lastPicture.empty())
+        crew_ = std::make_unique<Crew>(order, world);
 }
 
 Film::~Film() = default;
 
+void Film::look(const Camera& camera, DrawStyle style) {
+    crew_->renderer.camera = camera;
+    crew_->renderer.style = style;
+}
+
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
-                   const std::vector<Vec3>& colors) {
+                   const std::vector<Vec3>& colors, const std::string& text) {
+    crew_->context.makeCurrent();
     crew_->renderer.draw(positions, radii, colors);
+    crew_->painter.draw(text, TextPainter::Place::topLeft, crew_->order.width, crew_->order.height);
     crew_->last = crew_->renderer.read();
     if (crew_->recorder) crew_->recorder->captureFrame(crew_->last);
 }
@@ -57,8 +69,9 @@ void Film::walkAround(float degrees) {
 
 void Film::finish() {
     if (!crew_) return;
+    crew_->context.makeCurrent();
     if (crew_->recorder) crew_->recorder->release();
-    if (!crew_->png.empty()) writePng(crew_->png, crew_->last);
+    if (!crew_->order.lastPicture.empty()) writePng(crew_->order.lastPicture, crew_->last);
 }
 
 }  // namespace ballpit

@@ -122,6 +122,16 @@ SphereRenderer::SphereRenderer(Bounds world, int width, int height)
 
 SphereRenderer::~SphereRenderer() = default;
 
+void SphereRenderer::resize(int width, int height) {
+    width_ = width;
+    height_ = height;
+    glBindFramebuffer(GL_FRAMEBUFFER, gl_->framebuffer);
+    gl_->attach(GL_COLOR_ATTACHMENT0, gl_->renderbuffers[0], GL_RGBA8, width, height);
+    gl_->attach(GL_DEPTH_ATTACHMENT, gl_->renderbuffers[1], GL_DEPTH_COMPONENT24, width, height);
+}
+
+unsigned SphereRenderer::framebuffer() const { return gl_->framebuffer; }
+
 void SphereRenderer::draw(std::span<const Vec3> positions, std::span<const float> radii,
                           std::span<const Vec3> colors) {
     if (radii.size() != positions.size() || colors.size() != positions.size())
@@ -142,7 +152,7 @@ void SphereRenderer::draw(std::span<const Vec3> positions, std::span<const float
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_POLYGON_OFFSET_FILL);  // else the floor hides half of the lines that lie on it
     glPolygonOffset(3.0f, 3.0f);
-    drawFloor();
+    if (style.floorGrid) drawFloor();
     glDisable(GL_POLYGON_OFFSET_FILL);
     // Shadows fall only where the floor is: where the depth is less than the background's.
     glDepthMask(GL_FALSE);
@@ -150,7 +160,9 @@ void SphereRenderer::draw(std::span<const Vec3> positions, std::span<const float
     drawQuads(gl_->shadowProgram);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
+    if (style.wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     drawQuads(gl_->ballProgram);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     // Lines last: their soft borders blend with what is behind them.
     glDepthMask(GL_FALSE);
     glEnable(GL_LINE_SMOOTH);

@@ -10,6 +10,10 @@
 
 namespace ballpit {
 
+struct DrawStyle {
+    bool wireframe = false, floorGrid = true;
+};
+
 /// Draws offscreen, into a framebuffer object of its own. Needs an OpenGL context that is current
 /// as long as the renderer lives. Throws InputError if the driver refuses the frame's size.
 class SphereRenderer {
@@ -26,7 +30,11 @@ public:
     /// The picture drawn last.
     Frame read();
 
+    void resize(int width, int height);
+    unsigned framebuffer() const;
+
     Camera camera;
+    DrawStyle style;
 
 private:
     struct Ball {
