@@ -2,6 +2,7 @@
 #include "common/film.h"
 
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <optional>
 
@@ -9,12 +10,20 @@
 #include "09_video_recording/video_recorder.h"
 #include "common/offscreen_context.h"
 #include "common/text.h"
+#include "common/timing.h"
 
 namespace ballpit {
 
 namespace {
 
 constexpr int framesPerSecond = 60;
+
+/// How fast frames were made: simulated, drawn, read, encoded and written.
+void tellSpeed(const VideoRecorder& recorder, double milliseconds) {
+    std::fprintf(stderr, "recorded %d frames in %.2f s: %.1f frames a second, with %s\n",
+                 recorder.frameCount(), 1e-3 * milliseconds,
+                 1e3 * recorder.frameCount() / milliseconds, recorder.encoderName().c_str());
+}
 
 }  // namespace
 
@@ -35,7 +44,7 @@ struct Film::Crew {
     TextPainter painter;
     std::optional<VideoRecorder> recorder;
     FilmOrder order;
-    Frame last;
+    double start = 0;  // of the first frame, ms
 };
 
 Film::Film(const FilmOrder& order, Bounds world) {
@@ -53,10 +62,10 @@ void Film::look(const Camera& camera, DrawStyle style) {
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
                    const std::vector<Vec3>& colors, const std::string& text) {
     crew_->context.makeCurrent();
+    if (crew_->start == 0) crew_->start = milliseconds();
     crew_->renderer.draw(positions, radii, colors);
     crew_->painter.draw(text, TextPainter::Place::topLeft, crew_->order.width, crew_->order.height);
-    crew_->last = crew_->renderer.read();
-    if (crew_->recorder) crew_->recorder->captureFrame(crew_->last);
+    if (crew_->recorder) crew_->recorder->captureFrame();
 }
 
 void Film::walkAround(float degrees) {
@@ -70,8 +79,12 @@ void Film::walkAround(float degrees) {
 void Film::finish() {
     if (!crew_) return;
     crew_->context.makeCurrent();
-    if (crew_->recorder) crew_->recorder->release();
-    if (!crew_->order.lastPicture.empty()) writePng(crew_->order.lastPicture, crew_->last);
+    if (crew_->recorder) {
+        crew_->recorder->release();
+        tellSpeed(*crew_->recorder, milliseconds() - crew_->start);
+    }
+    if (!crew_->order.lastPicture.empty())
+        writePng(crew_->order.lastPicture, crew_->renderer.read());
 }
 
 }  // namespace ballpit

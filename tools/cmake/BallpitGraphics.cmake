@@ -37,6 +37,9 @@ if(BALLPIT_WITH_GRAPHICS)
     set(studio_sources
         common/film.cpp
         solutions/08_sphere_rendering/sphere_renderer.cpp
+        solutions/09_video_recording/encoder_choice.cpp
+        solutions/09_video_recording/stream_copy.cpp
+        solutions/09_video_recording/video_file.cpp
         solutions/09_video_recording/video_recorder.cpp)
     set(viewer_sources
         solutions/10_full_system/opengl_visualizer.cpp
