@@ -138,6 +138,19 @@ int lineHeightFor(int width, int height) {
     return std::clamp(std::min(height / lines, width / halfColumns), smallest, largest);
 }
 
+std::string fitted(const std::string& text, int lines) {
+    std::vector<std::string> kept;
+    std::istringstream all(text);
+    for (std::string line; std::getline(all, line);) kept.push_back(line);
+    const auto tooMany = [&] { return static_cast<int>(kept.size()) > lines; };
+    if (tooMany()) std::erase(kept, std::string());
+    if (tooMany()) std::erase_if(kept, [](const std::string& line) { return line[0] == ' '; });
+    if (tooMany()) kept.resize(static_cast<std::size_t>(std::max(0, lines)));
+    std::string result;
+    for (const std::string& line : kept) result += line + '\n';
+    return result;
+}
+
 struct TextPainter::Texture {
     explicit Texture(const GlyphSheet& sheet) {
         glGenTextures(1, &name);
@@ -193,18 +206,18 @@ void drawCharacters(const std::string& text, const GlyphSheet& glyphs, int left,
 }  // namespace
 
 void TextPainter::draw(const std::string& text, Place place, int width, int height) {
-    const auto [columns, lines] = sizeOf(text);
+    const int lineHeight = lineHeightFor(width, height), margin = lineHeight / 2;
+    const std::string shown = fitted(text, (height - 2 * margin) / lineHeight);
+    const auto [columns, lines] = sizeOf(shown);
     if (columns == 0) return;
-    prepare(lineHeightFor(width, height));
+    prepare(lineHeight);
     if (!glyphs_) return;
 
-    const int margin = glyphs_->cellHeight / 2;
     const int textWidth = columns * glyphs_->cellWidth, textHeight = lines * glyphs_->cellHeight;
-    int left = 2 * margin, top = 2 * margin;
-    if (place == Place::bottomLeft) top = height - textHeight - 2 * margin;
+    int left = 2 * margin, top = margin;
     if (place == Place::center) {
         left = (width - textWidth) / 2;
-        top = std::max(margin, (height - textHeight) / 2);
+        top = (height - textHeight) / 2;
     }
 
     const PixelDrawing drawing(width, height);
@@ -219,7 +232,7 @@ void TextPainter::draw(const std::string& text, Place place, int width, int heig
     glBindTexture(GL_TEXTURE_2D, texture_->name);
     glBegin(GL_QUADS);
     glColor4f(1.0f, 1.0f, 1.0f, 1.0f);
-    drawCharacters(text, *glyphs_, left, top);
+    drawCharacters(shown, *glyphs_, left, top);
     glEnd();
 }
 

@@ -25,6 +25,10 @@ std::optional<GlyphSheet> renderGlyphs(int lineHeight);
 /// large frames, so that a window on a fine screen has larger letters, but never too small to read.
 int lineHeightFor(int width, int height);
 
+/// The text in at most `lines` lines: if it has more, its empty lines go first, then indented ones,
+/// then what is at the end.
+std::string fitted(const std::string& text, int lines);
+
 /// Draws text over the framebuffer that is bound. Needs the OpenGL context it was made in.
 class TextPainter {
 public:
@@ -32,10 +36,11 @@ public:
     ~TextPainter();
     TextPainter(const TextPainter&) = delete;
 
-    enum class Place { topLeft, bottomLeft, center };
+    enum class Place { topLeft, center };
 
     /// The lines of `text` on a dark, translucent panel. Characters that are not printable ASCII
-    /// become "?". Without a font, or without text, nothing is drawn.
+    /// become "?". What has no room in the frame is left out, as by
+    /// fitted(). Without a font, or without text, nothing is drawn.
     void draw(const std::string& text, Place place, int width, int height);
 
 private:

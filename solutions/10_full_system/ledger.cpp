@@ -8,14 +8,16 @@
 namespace ballpit {
 namespace {
 
+/// "contacts                       163"; units stand behind the column of numbers.
 class Lines {
 public:
-    template <class... Values>
-    void add(const char* what, const char* pattern, Values... values) {
-        std::array<char, 64> value{};
-        std::snprintf(value.data(), value.size(), pattern, values...);
+    template <class Number>
+    void add(const std::string& what, const char* pattern, Number number, const char* unit = "") {
+        std::array<char, 32> digits{};
+        std::snprintf(digits.data(), digits.size(), pattern, number);
         std::array<char, 128> line{};
-        std::snprintf(line.data(), line.size(), "%-20s %s\n", what, value.data());
+        std::snprintf(line.data(), line.size(), "%-24s%10s%s%s\n", what.c_str(), digits.data(),
+                      *unit ? " " : "", unit);
         text_ += line.data();
     }
     void gap() { text_ += '\n'; }
@@ -27,22 +29,22 @@ private:
 
 void addTimes(Lines& lines, const Ledger& ledger, std::optional<double> framesPerSecond) {
     lines.gap();
-    lines.add("ms a step", "%9.3f", ledger.stepMilliseconds);
-    for (const StageTime& time : ledger.figures.stages)
-        lines.add(("  " + time.stage).c_str(), "%9.3f", time.milliseconds);
-    if (framesPerSecond) lines.add("frames a second", "%7.1f", *framesPerSecond);
+    lines.add("a step takes", "%.3f", ledger.stepMilliseconds, "ms");
+    for (const StageTime& time : ledger.stages)
+        lines.add("  " + time.stage, "%.3f", time.milliseconds, "ms");
+    if (framesPerSecond) lines.add("frames a second", "%.1f", *framesPerSecond);
 }
 
 void addFigures(Lines& lines, const MeasuredFigures& figures) {
     const Metrics& m = figures.metrics;
     lines.gap();
-    lines.add("measured at step", "%5ld", figures.step);
-    lines.add("energy", "%.6g J", m.kineticEnergy + m.potentialEnergy);
-    lines.add("  kinetic", "%.6g J", m.kineticEnergy);
-    lines.add("momentum", "%.4g kg m/s", length(m.momentum));
-    lines.add("largest penetration", "%.4f m", m.largestPenetration);
-    lines.add("state hash", "%s", hashText(figures.hash).c_str());
+    lines.add("measured at step", "%ld", figures.step);
+    lines.add("energy", "%.1f", m.kineticEnergy + m.potentialEnergy, "J");
+    lines.add("  kinetic", "%.1f", m.kineticEnergy, "J");
+    lines.add("momentum", "%.1f", length(m.momentum), "kg m/s");
+    lines.add("largest penetration", "%.4f", m.largestPenetration, "m");
     if (m.lost) lines.add("balls lost", "%zu", m.lost);
+    lines.add("state hash", "%s", hashText(figures.hash).c_str());
 }
 
 }  // namespace
@@ -50,10 +52,10 @@ void addFigures(Lines& lines, const MeasuredFigures& figures) {
 std::string ledgerText(const Ledger& ledger, bool withTimes,
                        std::optional<double> framesPerSecond) {
     Lines lines;
-    lines.add(ledger.scene.c_str(), "%5zu balls", ledger.balls);
-    lines.add("step", "%5ld", ledger.step);
-    lines.add("time", "%9.3f s", ledger.seconds);
-    lines.add("contacts", "%5zu", ledger.contacts);
+    lines.add(ledger.scene, "%zu", ledger.balls, "balls");
+    lines.add("step", "%ld", ledger.step);
+    lines.add("simulated time", "%.3f", ledger.seconds, "s");
+    lines.add("contacts", "%zu", ledger.contacts);
     if (withTimes) addTimes(lines, ledger, framesPerSecond);
     if (ledger.figures.step >= 0) addFigures(lines, ledger.figures);
     return lines.text();

@@ -17,7 +17,6 @@ struct MeasuredFigures {
     long step = -1;  ///< of the state that was measured; -1: nothing yet
     Metrics metrics;
     std::uint64_t hash = 0;
-    std::vector<StageTime> stages;  ///< empty if that step was not timed by stage
 };
 
 struct Ledger {
@@ -27,6 +26,7 @@ struct Ledger {
     double seconds = 0.0;           ///< simulated
     std::size_t contacts = 0;       ///< touching pairs in the last step
     double stepMilliseconds = 0.0;  ///< running mean
+    std::vector<StageTime> stages;  ///< of the last step that was timed
     MeasuredFigures figures;
 };
 

@@ -58,7 +58,7 @@ public:
     const MeasuredFigures& figures() {
         if (!figures_)
             figures_ = {step_, measure(balls(), scene_.bounds, scene_.gravity, scene_.dt),
-                        stateHash(balls()), stats_.stages};
+                        stateHash(balls())};
         return *figures_;
     }
 
@@ -70,6 +70,7 @@ public:
         ledger.seconds = static_cast<double>(step_) * scene_.dt;
         ledger.contacts = stats_.collisions;
         ledger.stepMilliseconds = stepMilliseconds_;
+        if (!stats_.stages.empty()) ledger.stages = stats_.stages;
     }
 
 private:

@@ -16,7 +16,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <cstring>
+#include <numbers>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -69,6 +69,7 @@ struct OpenGLVisualizer::Window {
     ~Window() { destroy(); }
     Window(const Window&) = delete;
 
+    Camera camera() const;
     void listen();
     void destroy();
     void released();
@@ -161,6 +162,16 @@ void OpenGLVisualizer::Window::destroy() {
     glutMainLoopEvent();  // only there does freeglut really destroy it
 }
 
+/// In a window narrower than 16:9 the view is as wide as in that, and higher.
+Camera OpenGLVisualizer::Window::camera() const {
+    Camera camera = orbit.camera();
+    const float missing = 16.0f / 9.0f * static_cast<float>(height) / static_cast<float>(width);
+    constexpr float degrees = 360.0f / std::numbers::pi_v<float>;  // of a half angle, twice
+    if (missing > 1.0f)
+        camera.verticalFieldOfView = degrees * std::atan(halfHeightTangent(camera) * missing);
+    return camera;
+}
+
 // ---- Mouse and keys
 
 void OpenGLVisualizer::Window::addOwnKeys() {
@@ -197,7 +208,7 @@ void OpenGLVisualizer::Window::drag(int x, int y) {
     if (dragging == Dragging::orbit) orbit.orbit(-halfTurn * right, halfTurn * down);
     if (dragging == Dragging::pan) {
         // What lies at the target's depth follows the mouse.
-        const float metres = 2.0f * halfHeightTangent(orbit.camera()) * orbit.distance;
+        const float metres = 2.0f * halfHeightTangent(camera()) * orbit.distance;
         orbit.pan(-metres * right, metres * down);
     }
     needsRedraw = true;
@@ -233,7 +244,7 @@ std::string OpenGLVisualizer::Window::keysText() const {
 void OpenGLVisualizer::Window::draw(std::span<const Vec3> positions, std::span<const float> radii,
                                     std::span<const Vec3> colors, const std::string& infoText) {
     glutSetWindow(id);
-    renderer->camera = orbit.camera();
+    renderer->camera = camera();
     renderer->style = style;
     renderer->draw(positions, radii, colors);
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->framebuffer());
@@ -282,6 +293,7 @@ void OpenGLVisualizer::run() {
 void OpenGLVisualizer::close() { window_->closing = true; }
 bool OpenGLVisualizer::isOpen() const { return window_->id != 0 && !window_->closing; }
 bool OpenGLVisualizer::needsRedraw() const { return window_->needsRedraw; }
+Camera OpenGLVisualizer::camera() const { return window_->camera(); }
 const OrbitCamera& OpenGLVisualizer::orbit() const { return window_->orbit; }
 DrawStyle OpenGLVisualizer::style() const { return window_->style; }
 bool OpenGLVisualizer::showsKeys() const { return window_->showsKeys; }

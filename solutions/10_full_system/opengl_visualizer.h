@@ -41,6 +41,7 @@ public:
     /// style changed, the window was resized or uncovered.
     bool needsRedraw() const;
 
+    Camera camera() const;
     const OrbitCamera& orbit() const;
     DrawStyle style() const;
     bool showsKeys() const;

@@ -16,9 +16,8 @@ public:
     OrderedFilm(const Options& options, const Scene& scene)
         : options_(options), film_(options, scene.bounds) {}
 
-    bool wantsFigures(const Observation& last) const {
-        return hasLedger() && recordingMeasures(last.step() + 1, last.count());
-    }
+    /// Will the next step's times be shown?
+    bool wantsTimes() const { return hasLedger() && options_.ledgerTimes; }
 
     void stepDone(Observation& now) {
         if (!film_.isRolling()) return;
@@ -68,7 +67,7 @@ inline void runSteps(PhysicsSimulator& simulator, const Scene& scene, const Opti
     }
     while (summary.steps < summary.stepsAsked && !StopRequest::received() &&
            (!feed || feed->awaitTurn(now))) {
-        simulator.timeStages(film.wantsFigures(now) || (feed && feed->wantsFigures()));
+        simulator.timeStages(film.wantsTimes() || (feed && feed->wantsTimes()));
         const StepStats stats = simulator.step();
         now.stepDone(stats);
         film.stepDone(now);

@@ -21,11 +21,11 @@ class FrameRate {
 public:
     void frameShown() {
         const double now = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-        if (last_ > 0.0) {
-            const double share = frames_ < 30 ? 1.0 / ++frames_ : 1.0 / 30;
-            interval_ += share * (now - last_ - interval_);
-        }
+        const double interval = now - last_;
         last_ = now;
+        constexpr double pause = 0.5;  // s: then nothing changed, and nothing needed to be drawn
+        if (interval > pause) return;
+        interval_ += (interval - interval_) / (frames_ < 30 ? ++frames_ : 30);
     }
     double perSecond() const { return interval_ > 0.0 ? 1.0 / interval_ : 0.0; }
 
@@ -60,7 +60,7 @@ private:
         };
         key('v', "start or stop recording", [](Wishes& w) { w.recording = !w.recording; });
         key('l', "figures on or off", [](Wishes& w) { w.ledger = !w.ledger; });
-        key('c', "colour by body, speed, contacts, cell, memory",
+        key('c', "next colouring: speed, contacts, cell...",
             [](Wishes& w) { w.colorBy = nextColoring(w.colorBy); });
         key('n', "one step, then pause", [](Wishes& w) {
             w.paused = true;
@@ -72,7 +72,7 @@ private:
     /// The view, for recordings.
     void tellView() {
         link_.remote.change([this](Wishes& w) {
-            w.camera = window_.orbit().camera();
+            w.camera = window_.camera();
             w.style = window_.style();
             w.width = window_.width();
             w.height = window_.height();
@@ -85,7 +85,8 @@ private:
         const bool isNew = link_.snapshots.take(shown_);
         const bool viewChanged = window_.needsRedraw();
         if (viewChanged) tellView();
-        if (!isNew && !viewChanged) return;
+        const bool nothingYet = shown_.positions.empty();
+        if (nothingYet || (!isNew && !viewChanged)) return;
         rate_.frameShown();
         window_.render(shown_.positions, radii_, shown_.colors, textOver());
         if (options_.reportState) reportState();

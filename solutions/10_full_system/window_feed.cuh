@@ -33,8 +33,8 @@ public:
         return true;
     }
 
-    /// Will the next step's figures be measured?
-    bool wantsFigures() const {
+    /// Will the next step's times be shown? As often as its figures: on a GPU, timing costs.
+    bool wantsTimes() const {
         return wishes_.ledger && (wishes_.paused || rhythm_.isDue(Clock::now()));
     }
 
