@@ -1,4 +1,5 @@
-// Chapter 08: the camera that a hand moves. It looks at a target from a distance, a yaw and a pitch.
+// Chapter 08: the camera that a hand moves. It looks at a target from a distance, a yaw and a
+// pitch.
 #pragma once
 
 #include "common/camera.h"

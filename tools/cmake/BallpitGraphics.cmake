@@ -36,7 +36,10 @@ if(BALLPIT_WITH_GRAPHICS)
     ballpit_target(ballpit_gl)
     set(studio_sources
         common/film.cpp
+        solutions/08_sphere_rendering/ball_shapes.cpp
+        solutions/08_sphere_rendering/opengl_program.cpp
         solutions/08_sphere_rendering/sphere_renderer.cpp
+        solutions/08_sphere_rendering/stage.cpp
         solutions/09_video_recording/encoder_choice.cpp
         solutions/09_video_recording/stream_copy.cpp
         solutions/09_video_recording/video_file.cpp
