@@ -76,7 +76,7 @@ TEST_CASE("a pile under warm comes to rest, under coloured it boils", "[stabilit
     const Scene scene = test::pileOf(500, 0.0f, 2);
     const auto speed = [&](ResponseMethod method) {
         const Spheres end =
-            test::simulate(scene, test::settingsFor(scene, Device::cpu, method), 300);
+            test::simulate(scene, test::settingsFor(scene, Device::cpu, method), 500);
         return std::sqrt(2.0 * test::measureIn(scene, end).kineticEnergy / 500.0);
     };
     const double fallOfAStep = 9.81 / 60.0;
@@ -84,16 +84,18 @@ TEST_CASE("a pile under warm comes to rest, under coloured it boils", "[stabilit
     CHECK(speed(ResponseMethod::coloured) > 2.0 * fallOfAStep);
 }
 
-TEST_CASE("small-steps fails with balls that overlap from the start: it throws them apart",
+TEST_CASE("small-steps fails with a crowd that overlaps from the start: the overlap becomes speed",
           "[stability]") {
-    Scene scene = test::emptyWorld();
-    scene.spheres.add({-0.4f, 0, 0}, {0, 0, 0}, 0.5f, 1.0f, 0.5f);
-    scene.spheres.add({0.4f, 0, 0}, {0, 0, 0}, 0.5f, 1.0f, 0.5f);
-    const auto speed = [&](ResponseMethod method) {
-        const Spheres end = test::simulate(scene, test::settingsFor(scene, Device::cpu, method), 3);
-        return end.velocities[1].x - end.velocities[0].x;
+    // 2 % of a diameter at every contact, and no room to give way to.
+    const Scene scene = makePile(1000, 1);
+    const auto energyGained = [&](ResponseMethod method) {
+        const Spheres end = test::simulate(scene, test::settingsFor(scene, Device::cpu, method), 5);
+        return test::measureIn(scene, end).shadowEnergy -
+               test::measureIn(scene, scene.spheres).shadowEnergy;
     };
-    CHECK(speed(ResponseMethod::smallSteps) == 0.0f);
+    CHECK(energyGained(ResponseMethod::smallSteps) > 1000.0);
+    CHECK(energyGained(ResponseMethod::coloured) < 10.0);
+    CHECK(energyGained(ResponseMethod::warm) < 10.0);
 }
 
 namespace {
@@ -118,7 +120,7 @@ bool isListed(const std::vector<Pair>& list, Pair pair) {
 TEST_CASE("no pair is missed by the list that serves all substeps of a step", "[stability]") {
     const Device device = GENERATE(from_range(test::devices()));
     const ResponseMethod method = GENERATE(ResponseMethod::smallSteps, ResponseMethod::penalty);
-    const float speed = GENERATE(0.5f, 4.0f, 12.0f);
+    const float speed = GENERATE(0.5f, 2.0f, 5.0f);
     CAPTURE(device, method, speed);
     const Scene scene = rush(speed, 7);
     PhysicsSimulator simulator(test::settingsFor(scene, device, method));
@@ -135,7 +137,7 @@ TEST_CASE("no pair is missed by the list that serves all substeps of a step", "[
             missed += !isListed(list, pair);
         }
     }
-    CAPTURE(touching);
+    CAPTURE(shared, touching);
     CHECK(missed == 0);
     CHECK(shared > 0);
 }

@@ -149,6 +149,10 @@ public:
     std::size_t bytes() const override {
         return colouring_.bytes() + corrections_.bytes() + pushes_.bytes();
     }
+    static std::size_t predictedBytes(std::size_t bodyCount, std::size_t pairCapacity) {
+        return Colouring::predictedBytes(bodyCount, pairCapacity) + bodyCount * sizeof(Vec4) +
+               pairCapacity * sizeof(float);
+    }
 
 private:
     Device device_;

@@ -254,6 +254,11 @@ public:
         return colouring_.bytes() + corrections_.bytes() + wallChanges_.bytes() + pushes_.bytes() +
                impulses_.bytes() + wanted_.bytes() + committed_.bytes() + next_.bytes();
     }
+    static std::size_t predictedBytes(std::size_t bodyCount, std::size_t pairCapacity) {
+        return Colouring::predictedBytes(bodyCount, pairCapacity) +
+               bodyCount * 2 * (2 * sizeof(Vec4) + sizeof(EntryRange)) +
+               pairCapacity * (5 * sizeof(float) + 2 * sizeof(std::uint32_t));
+    }
 
 private:
     Device device_;
