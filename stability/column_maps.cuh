@@ -54,16 +54,23 @@ inline double tallestOnFloorFeltOnce() {
 }
 
 inline Map columnMap(const MapOptions& options) {
-    Map map{"column", "How tall a column of equal balls stands?",
-            "no overlap is deeper than 0.1 r in the last of 3 s", "deepest overlap / r", {}};
-    const Axis passes{"passes a second", options.coarse ? std::vector<double>{120, 1920}
-                                                        : std::vector<double>{60, 120, 240, 480, 960, 1920}};
-    const Axis balls{"balls", options.coarse ? std::vector<double>{2, 10}
-                                             : std::vector<double>{2, 3, 4, 5, 7, 10, 14, 20, 28, 40}};
+    Map map{"column",
+            "How tall a column of equal balls stands?",
+            "no overlap is deeper than 0.1 r in the last of 3 s",
+            "deepest overlap / r",
+            {}};
+    const Axis passes{"passes a second", options.coarse
+                                             ? std::vector<double>{120, 1920}
+                                             : std::vector<double>{60, 120, 240, 480, 960, 1920}};
+    const Axis balls{"balls", options.coarse
+                                  ? std::vector<double>{2, 10}
+                                  : std::vector<double>{2, 3, 4, 5, 7, 10, 14, 20, 28, 40}};
     const double seconds = options.coarse ? 2 : 3;
     for (const ResponseMethod method : allMethods()) {
         const Device device = options.device;
-        Panel panel{name(method), passes, balls,
+        Panel panel{name(method),
+                    passes,
+                    balls,
                     [=](double rate, double count) {
                         return restingCell(makeColumn(static_cast<int>(count), dullest(method)),
                                            method, static_cast<int>(rate / frames), seconds,
@@ -76,25 +83,31 @@ inline Map columnMap(const MapOptions& options) {
                                             1 / rate);
             }));
         if (feelsWallsOnce(method))
-            panel.lines.push_back(
-                lineOver(passes, "floor felt once a step: n (n-1) g dt^2 = 0.1 r",
-                         [](double) { return tallestOnFloorFeltOnce(); }));
+            panel.lines.push_back(lineOver(passes, "floor felt once a step: n (n-1) g dt^2 = 0.1 r",
+                                           [](double) { return tallestOnFloorFeltOnce(); }));
         map.panels.push_back(panel);
     }
     return map;
 }
 
 inline Map heavyMap(const MapOptions& options) {
-    Map map{"heavy", "How heavy a ball can lie on a light one?",
-            "no overlap is deeper than 0.1 r in the last of 2 s", "deepest overlap / r", {}};
-    const Axis passes{"passes a second", options.coarse ? std::vector<double>{120, 1920}
-                                                        : std::vector<double>{60, 120, 240, 480, 960, 1920, 3840}};
+    Map map{"heavy",
+            "How heavy a ball can lie on a light one?",
+            "no overlap is deeper than 0.1 r in the last of 2 s",
+            "deepest overlap / r",
+            {}};
+    const Axis passes{"passes a second",
+                      options.coarse ? std::vector<double>{120, 1920}
+                                     : std::vector<double>{60, 120, 240, 480, 960, 1920, 3840}};
     const Axis ratio{"mass of the upper over the lower",
-                     options.coarse ? std::vector<double>{1, 30}
-                                    : std::vector<double>{1, 2, 3, 5, 10, 20, 30, 50, 100, 300, 1000}};
+                     options.coarse
+                         ? std::vector<double>{1, 30}
+                         : std::vector<double>{1, 2, 3, 5, 10, 20, 30, 50, 100, 300, 1000}};
     for (const ResponseMethod method : allMethods()) {
         const Device device = options.device;
-        Panel panel{name(method), passes, ratio,
+        Panel panel{name(method),
+                    passes,
+                    ratio,
                     [=](double rate, double R) {
                         return restingCell(makeHeavyOnLight(static_cast<float>(R), dullest(method)),
                                            method, static_cast<int>(rate / frames), 2, device);

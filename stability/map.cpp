@@ -29,8 +29,8 @@ Line lineOver(const Axis& x, const std::string& label, const std::function<doubl
     const auto [low, high] = std::minmax_element(x.values.begin(), x.values.end());
     for (int k = 0; k <= points; ++k) {
         const double share = double(k) / points;
-        const double at = *low > 0 ? *low * std::pow(*high / *low, share)
-                                   : *low + share * (*high - *low);
+        const double at =
+            *low > 0 ? *low * std::pow(*high / *low, share) : *low + share * (*high - *low);
         const double y = f(at);
         if (std::isfinite(y)) line.points.emplace_back(at, y);
     }
@@ -44,8 +44,7 @@ Line lineAt(double x, const Axis& y, const std::string& label) {
 
 std::size_t cellCount(const Map& map) {
     std::size_t count = 0;
-    for (const Panel& panel : map.panels)
-        count += panel.x.values.size() * panel.y.values.size();
+    for (const Panel& panel : map.panels) count += panel.x.values.size() * panel.y.values.size();
     return count;
 }
 

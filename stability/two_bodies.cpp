@@ -8,6 +8,7 @@ namespace ballpit::stability {
 Scene makeTwoBodies(const TwoBodies& k) {
     constexpr float sigma = 2.0f * ballRadius;
     Scene scene = emptyWorld("two_bodies", {{-20, -20, -20}, {20, 20, 20}});
+    scene.cellSize = 5.0f;                    // two balls need no fine grid
     const float way = k.travel * ballRadius;  // m a step
     // The balls touch at the distance sigma; one step before, and `phase` of one, it is too far.
     const float touching = sigma * std::sqrt(1.0f - k.offset * k.offset);
