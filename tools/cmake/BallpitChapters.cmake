@@ -34,8 +34,10 @@ function(ballpit_student target label)
     add_dependencies(starters ${target})
 endfunction()
 
-# NN_name and check_NN from the student's piece, and both again from the solution.
+# NN_name and check_NN from the student's piece, and both again from the solution. STUDIO: the piece
+# is a part of the studio, so the student's programs and both checks get a studio of their own.
 function(ballpit_chapter folder)
+    cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO" "" "")
     string(SUBSTRING ${folder} 0 2 label)
     ballpit_forward_pieces(${label})
     foreach(variant "" "_reference")
@@ -50,8 +52,15 @@ function(ballpit_chapter folder)
             ballpit_student(${main} ${label})
             ballpit_student(${check} ${label} CHECKED)
         endif()
-        target_link_libraries(${main} PRIVATE ballpit_film)
         target_link_libraries(${check} PRIVATE ballpit_checks)
+        if(chapter_STUDIO)
+            ballpit_studio(${check})
+        endif()
+        if(chapter_STUDIO AND NOT variant)
+            ballpit_studio(${main})
+        else()
+            target_link_libraries(${main} PRIVATE ballpit_film)
+        endif()
     endforeach()
     if(BUILD_TESTING)
         # The solution passes its own checks; the student's are no test of ours.

@@ -1,49 +1,83 @@
-# Rendering and recording, where OpenGL, EGL, GLEW and FFmpeg's libraries are installed.
-# Sets BALLPIT_WITH_GRAPHICS.
+# Rendering, the window and recording, where OpenGL, EGL, GLU, GLEW, GLUT, FreeType and FFmpeg's
+# libraries are installed. Sets BALLPIT_WITH_GRAPHICS.
 set(BALLPIT_WITH_GRAPHICS OFF)
 if(NOT BALLPIT_GRAPHICS STREQUAL "OFF")
     find_package(OpenGL COMPONENTS OpenGL EGL)
     find_package(GLEW)
+    find_package(GLUT)
+    find_package(Freetype)
     find_package(PkgConfig)
     if(PkgConfig_FOUND)
         pkg_check_modules(FFMPEG IMPORTED_TARGET libavcodec libavformat libavutil libswscale)
     endif()
-    if(OpenGL_EGL_FOUND AND GLEW_FOUND AND FFMPEG_FOUND)
+    if(OpenGL_EGL_FOUND AND OPENGL_GLU_FOUND AND GLEW_FOUND AND GLUT_FOUND AND FREETYPE_FOUND
+       AND FFMPEG_FOUND)
         set(BALLPIT_WITH_GRAPHICS ON)
     elseif(BALLPIT_GRAPHICS STREQUAL "ON")
         message(FATAL_ERROR "Graphics were asked for, but a library is missing. Debian: apt-get "
-                            "install libgl-dev libegl-dev libglew-dev libavcodec-dev "
-                            "libavformat-dev libswscale-dev pkg-config")
+                            "install libgl-dev libegl-dev libglu1-mesa-dev libglew-dev "
+                            "freeglut3-dev libfreetype-dev libavcodec-dev libavformat-dev "
+                            "libswscale-dev pkg-config")
     endif()
 endif()
 
+# ballpit_frame writes pictures. ballpit_gl holds what drawing needs and no chapter asks for.
+# The studio is what draws and records: it holds pieces of chapters, so it is compiled with the
+# solutions (ballpit_film), and with a student's files into the student's own programs.
 if(BALLPIT_WITH_GRAPHICS)
     message(STATUS "Graphics: yes")
     add_library(ballpit_frame STATIC common/frame.cpp)
     target_link_libraries(ballpit_frame PUBLIC PkgConfig::FFMPEG)
-    add_library(ballpit_graphics STATIC
-        common/camera.cpp
-        common/offscreen_context.cpp
+    add_library(ballpit_gl STATIC
+        common/camera.cpp common/offscreen_context.cpp common/opengl.cpp common/text.cpp)
+    target_link_libraries(ballpit_gl
+        PUBLIC ballpit_frame OpenGL::OpenGL OpenGL::EGL OpenGL::GLU GLEW::GLEW GLUT::GLUT
+               Freetype::Freetype)
+    ballpit_target(ballpit_gl)
+    set(studio_sources
+        common/film.cpp
+        solutions/08_sphere_rendering/ball_shapes.cpp
+        solutions/08_sphere_rendering/opengl_program.cpp
         solutions/08_sphere_rendering/sphere_renderer.cpp
+        solutions/08_sphere_rendering/stage.cpp
+        solutions/09_video_recording/encoder_choice.cpp
+        solutions/09_video_recording/stream_copy.cpp
+        solutions/09_video_recording/video_file.cpp
         solutions/09_video_recording/video_recorder.cpp)
-    ballpit_target(ballpit_graphics)
-    target_link_libraries(ballpit_graphics
-        PUBLIC ballpit_common ballpit_frame OpenGL::OpenGL OpenGL::EGL GLEW::GLEW)
+    set(viewer_sources
+        solutions/10_full_system/opengl_visualizer.cpp
+        solutions/10_full_system/viewer.cpp)
 else()
-    add_library(ballpit_frame STATIC common/frame_without_graphics.cpp)
     message(STATUS "Graphics: no (physics, tests of physics and the bench are built)")
+    add_library(ballpit_frame STATIC common/frame_without_graphics.cpp)
+    set(studio_sources common/film_without_graphics.cpp)
+    set(viewer_sources solutions/10_full_system/viewer_without_graphics.cpp)
 endif()
-
-# Picture files do not depend on anything else of ours.
 ballpit_target(ballpit_frame)
+list(APPEND studio_sources common/show_spheres.cpp)
+list(APPEND viewer_sources solutions/10_full_system/ledger.cpp)
 
-# The film is there in every build; without graphics it refuses to record.
-add_library(ballpit_film STATIC common/show_spheres.cpp)
-if(BALLPIT_WITH_GRAPHICS)
-    target_sources(ballpit_film PRIVATE common/film.cpp)
-    target_link_libraries(ballpit_film PUBLIC ballpit_graphics)
-else()
-    target_sources(ballpit_film PRIVATE common/film_without_graphics.cpp)
-endif()
+# Compiles the studio into a target, with the pieces that this target sees. VIEWER: with the window
+# and the ledger of the whole system.
+function(ballpit_studio target)
+    cmake_parse_arguments(PARSE_ARGV 1 studio "VIEWER" "" "")
+    set(sources ${studio_sources})
+    if(studio_VIEWER)
+        list(APPEND sources ${viewer_sources})
+    endif()
+    foreach(source ${sources})
+        target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/${source})
+    endforeach()
+    target_link_libraries(${target} PUBLIC ballpit_common)
+    if(BALLPIT_WITH_GRAPHICS)
+        target_link_libraries(${target} PUBLIC ballpit_gl)
+    endif()
+endfunction()
+
+add_library(ballpit_film STATIC)
+ballpit_studio(ballpit_film)
 ballpit_target(ballpit_film)
-target_link_libraries(ballpit_film PUBLIC ballpit_common)
+
+add_library(ballpit_viewer STATIC ${viewer_sources})
+target_link_libraries(ballpit_viewer PUBLIC ballpit_film)
+ballpit_target(ballpit_viewer)
