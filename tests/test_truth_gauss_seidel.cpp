@@ -110,6 +110,19 @@ TEST_CASE("truth: below the restitution threshold nothing bounces, ball or wall"
     }
 }
 
+TEST_CASE("truth: a ball beyond a wall that comes back already is put back, no more") {
+    StepSettings settings{.walls = {{0, 0, 0}, {9, 9, 9}}, .dt = 1e-6, .passes = 1};
+    for (const WallTurn turn : {WallTurn::oncePerStep, WallTurn::everyPass}) {
+        settings.wallTurn = turn;
+        GaussSeidel scheme({{{0.3, 4, 8.9}, {2, 0, -1}}}, settings);
+        scheme.step();
+        CHECK(scheme.balls()[0].position.x == within(0.5, 1e-14));
+        CHECK(scheme.balls()[0].position.z == within(8.5, 1e-14));
+        CHECK(scheme.balls()[0].velocity.x == 2);
+        CHECK(scheme.balls()[0].velocity.z == -1);
+    }
+}
+
 TEST_CASE("truth: balls that part are left alone, and coincident ones are told apart") {
     GaussSeidel parting({{{0, 0, 0}, {-1, 0, 0}}, {{0.9, 0, 0}, {2, 0, 0}}}, {.dt = 1e-3});
     parting.step();
