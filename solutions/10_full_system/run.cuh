@@ -85,7 +85,8 @@ inline void runSteps(PhysicsSimulator& simulator, const Scene& scene, const Opti
 inline Summary runScene(const Options& options) {
     const Scene scene = sceneFor(options);
     SimulatorSettings settings = settingsFor(scene, options.device);
-    settings.iterations = options.iterations;
+    settings.response = responseMethod(options.response);
+    static_cast<ResponseKnobs&>(settings) = options.knobs;
     PhysicsSimulator simulator(settings);
     simulator.bodies().upload(scene.spheres);
 
