@@ -222,7 +222,6 @@ void OpenGLVisualizer::Window::wheel(int direction) {
 void OpenGLVisualizer::Window::resize(int newWidth, int newHeight) {
     width = std::max(1, newWidth);
     height = std::max(1, newHeight);
-    if (renderer) renderer->resize(width, height);
     needsRedraw = true;
 }
 
@@ -244,6 +243,7 @@ std::string OpenGLVisualizer::Window::keysText() const {
 void OpenGLVisualizer::Window::draw(std::span<const Vec3> positions, std::span<const float> radii,
                                     std::span<const Vec3> colors, const std::string& infoText) {
     glutSetWindow(id);
+    if (renderer->width() != width || renderer->height() != height) renderer->resize(width, height);
     renderer->camera = camera();
     renderer->style = style;
     renderer->draw(positions, radii, colors);

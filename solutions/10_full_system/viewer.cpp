@@ -59,7 +59,7 @@ private:
             window_.addKey(letter, meaning, [this, change] { link_.remote.change(change); });
         };
         key('v', "start or stop recording", [](Wishes& w) { w.recording = !w.recording; });
-        key('l', "figures on or off", [](Wishes& w) { w.ledger = !w.ledger; });
+        key('l', "this text on or off", [](Wishes& w) { w.ledger = !w.ledger; });
         key('c', "next colouring: speed, contacts, cell...",
             [](Wishes& w) { w.colorBy = nextColoring(w.colorBy); });
         key('n', "one step, then pause", [](Wishes& w) {
@@ -81,6 +81,7 @@ private:
 
     /// Called sixty times a second.
     void showNewest() {
+        if (std::exchange(unreported_, false)) reportState();
         if (ended_ || StopRequest::received()) return window_.close();
         const bool isNew = link_.snapshots.take(shown_);
         const bool viewChanged = window_.needsRedraw();
@@ -89,13 +90,12 @@ private:
         if (nothingYet || (!isNew && !viewChanged)) return;
         rate_.frameShown();
         window_.render(shown_.positions, radii_, shown_.colors, textOver());
-        if (options_.reportState) reportState();
+        unreported_ = options_.reportState;
     }
 
     std::string textOver() const {
-        std::string text;
-        if (link_.remote.wishes().ledger) text = ledgerText(shown_.ledger, true, rate_.perSecond());
-        if (!text.empty()) text += '\n';
+        if (!link_.remote.wishes().ledger) return {};
+        std::string text = ledgerText(shown_.ledger, true, rate_.perSecond()) + '\n';
         if (shown_.paused) text += "PAUSED (Space goes on, N makes a step)\n";
         if (shown_.colorBy != ColorBy::body)
             text += std::string("colour by ") + name(shown_.colorBy) + '\n';
@@ -103,7 +103,8 @@ private:
         return text + "H shows the keys\n";
     }
 
-    /// For tests: what is on the screen now, as a line of JSON.
+    /// For tests: what is on the screen, as a line of JSON. Called when freeglut has sent the
+    /// picture on its way: after the next look at the events.
     void reportState() const {
         const OrbitCamera& orbit = window_.orbit();
         const MeasuredFigures& figures = shown_.ledger.figures;
@@ -129,6 +130,7 @@ private:
     OpenGLVisualizer window_;
     Snapshot shown_;
     FrameRate rate_;
+    bool unreported_ = false;
     std::atomic<bool> ended_ = false;
 };
 
