@@ -441,20 +441,10 @@ class Ends(WindowTest):
         self.assertEqual(window.end()[0], 3)
         self.assertIn("last_good_state.csv", os.listdir(self.folder))
 
-    def refuses(self, words, **environment):
-        result = self.headless("--view", **environment)
-        self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
-        self.assertTrue(result.stderr.startswith("error: "), result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
-
-    def test_without_a_display_there_is_one_clear_line(self):
-        self.refuses(["window", "display", "--out"], DISPLAY="")
-        self.refuses(["window", "display", ":4711"], DISPLAY=":4711")
-
     def test_an_opengl_that_is_too_old_is_named(self):
-        self.refuses(["OpenGL is 1.4", "2.1"], DISPLAY=DISPLAY.name, MESA_GL_VERSION_OVERRIDE="1.4")
+        result = self.headless("--view", DISPLAY=DISPLAY.name, MESA_GL_VERSION_OVERRIDE="1.4")
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertRegex(result.stderr, r"\Aerror: .*OpenGL is 1\.4.*2\.1.*\n\Z")
 
 
 class Threads(WindowTest):
