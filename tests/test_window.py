@@ -420,6 +420,17 @@ class Ends(WindowTest):
                 self.assertIn("state hash", output)
                 self.assertNotIn("stopped early", output)
 
+    def test_a_window_taken_away_by_force_still_completes_the_video(self):
+        for how in ("windowclose", "windowkill"):  # by another program; as if the display broke
+            with self.subTest(how):
+                window = self.open("--out", how + ".mp4")
+                window.wait(lambda state: state["step"] >= 3)
+                window.xdotool(how, window.id)
+                code, output = window.end()
+                self.assertEqual(code, 0, window.errors)
+                self.assertIn("state hash", output)
+                self.assertIn(how + ".mp4", os.listdir(self.folder))
+
     def test_ctrl_c_ends_the_window_and_completes_the_video(self):
         window = self.open("--out", "film.mp4")
         window.wait(lambda state: state["step"] >= 3)

@@ -1,6 +1,7 @@
 // freeglut's window, its events, and one picture after the other in it.
 #include "10_full_system/opengl_visualizer.h"
 
+#include "common/display_loss.h"
 #include "common/error.h"
 #include "common/opengl.h"
 #include "common/text.h"
@@ -119,6 +120,7 @@ OpenGLVisualizer::Window::Window(Bounds worldBounds, int askedWidth, int askedHe
         destroy();
         throw;
     }
+    surviveDisplayLoss();
     listen();
     addOwnKeys();
 }
@@ -291,7 +293,9 @@ void OpenGLVisualizer::run() {
 }
 
 void OpenGLVisualizer::close() { window_->closing = true; }
-bool OpenGLVisualizer::isOpen() const { return window_->id != 0 && !window_->closing; }
+bool OpenGLVisualizer::isOpen() const {
+    return window_->id != 0 && !window_->closing && !displayLost();
+}
 bool OpenGLVisualizer::needsRedraw() const { return window_->needsRedraw; }
 Camera OpenGLVisualizer::camera() const { return window_->camera(); }
 const OrbitCamera& OpenGLVisualizer::orbit() const { return window_->orbit; }
