@@ -386,6 +386,26 @@ class Recording(WindowTest):
         self.assertEqual(code, 0)
         self.assertIn(f"saved {path}", output)
 
+    def test_each_recording_has_a_file_of_its_own(self):
+        window = self.open_still()
+        for number in (1, 2):
+            window.toggle("v", "recording")
+            self.assertEqual(window.state["recording"], f"videos/gravity_fall_00{number}.mp4")
+            step = window.state["step"]
+            window.press("n", lambda state: state["step"] == step + 1)
+            window.toggle("v", "recording")
+        self.assertEqual(len(os.listdir(os.path.join(self.folder, "videos"))), 2)
+
+    def test_a_recording_that_cannot_be_written_is_refused_and_the_window_goes_on(self):
+        self.write("videos", "a file in the way")
+        window = self.open()
+        window.press("v")
+        step = window.wait(lambda state: state["message"].startswith("not recorded"))["step"]
+        window.wait(lambda state: state["step"] > step + 3)
+        window.press("Escape")
+        self.assertEqual(window.end()[0], 0)
+        self.assertTrue(any("not recorded" in line for line in window.errors), window.errors)
+
     def test_closing_the_window_completes_the_recording(self):
         window = self.open()
         window.toggle("v", "recording")

@@ -57,7 +57,9 @@ else()
 endif()
 ballpit_target(ballpit_frame)
 list(APPEND studio_sources common/show_spheres.cpp)
-list(APPEND viewer_sources solutions/10_full_system/ledger.cpp)
+list(APPEND viewer_sources
+    solutions/10_full_system/ledger.cpp
+    solutions/10_full_system/user_recording.cpp)
 
 # Compiles the studio into a target, with the pieces that this target sees. VIEWER: with the window
 # and the ledger of the whole system.
@@ -66,6 +68,7 @@ function(ballpit_studio target)
     set(sources ${studio_sources})
     if(studio_VIEWER)
         list(APPEND sources ${viewer_sources})
+        target_include_directories(${target} SYSTEM PRIVATE ${JSON_INCLUDE_DIR})
     endif()
     foreach(source ${sources})
         target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/${source})
@@ -82,4 +85,5 @@ ballpit_target(ballpit_film)
 
 add_library(ballpit_viewer STATIC ${viewer_sources})
 target_link_libraries(ballpit_viewer PUBLIC ballpit_film)
+target_include_directories(ballpit_viewer SYSTEM PRIVATE ${JSON_INCLUDE_DIR})
 ballpit_target(ballpit_viewer)
