@@ -22,7 +22,7 @@ import time
 import unittest
 
 GRAVITY_FALL = os.path.abspath(sys.argv[1])
-PATIENCE = 60  # s, for anything to happen on a busy machine
+PATIENCE = float(os.environ.get("BALLPIT_TEST_PATIENCE", 60))  # s, for anything to happen on a busy machine
 HEADER = "x,y,z,vx,vy,vz,radius,mass,restitution\n"
 
 
@@ -110,11 +110,13 @@ class Window:
 
     def settled(self):
         """The state once nothing more is reported for a while."""
-        while True:
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
             try:
                 self.state = self.lines.get(timeout=0.3)
             except queue.Empty:
                 return self.state
+        raise AssertionError(f"the window does not come to rest: {self.state}")
 
     @staticmethod
     def xdotool(*arguments):
@@ -282,7 +284,9 @@ class OneBall(WindowTest):
             with self.subTest(size=(width, height)):
                 window.xdotool("windowsize", window.id, str(width), str(height))
                 window.wait(lambda state: (state["width"], state["height"]) == (width, height))
-                *_, across, along = self.ball_box(window)
+                x, y, across, along = self.ball_box(window)
+                self.assertAlmostEqual(x / width, 0.5, delta=0.1)
+                self.assertAlmostEqual(y / height, 0.5, delta=0.15)
                 self.assertGreater(along, 20)
                 self.assertAlmostEqual(across / along, 1.0, delta=0.06)
 
