@@ -115,6 +115,11 @@ class BadOptions(Folder):
                      "--frames", "1", __EGL_VENDOR_LIBRARY_FILENAMES="/nowhere.json",
                      __EGL_VENDOR_LIBRARY_DIRS="/nowhere")
 
+    def test_a_window_without_a_display(self):
+        for display in ("", ":4711"):
+            self.refuses([f"display '{display}'", "--out"] if self.has_graphics() else
+                         ["no graphics"], "--view", DISPLAY=display)
+
     def test_bench_refuses_an_unknown_scene_and_device(self):
         self.refuses(["known scenes"], "--scenes", "lava", program=BENCH)
         self.refuses(["--device"], "--device", "tpu", program=BENCH)

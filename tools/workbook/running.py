@@ -10,7 +10,7 @@ from workbook.chapters import ROOT
 
 def register(commands):
     for name, run, text in [
-            ("demo", demo_command, "simulate 500 falling balls, record videos/gravity_fall.mp4"),
+            ("demo", demo_command, "record 500 falling balls: videos/gravity_fall.mp4; --view: in a window"),
             ("test", test_command, "build and run all tests of the engine"),
             ("bench", bench_command, "time the engine's stages; `bench 02`: your piece and ours")]:
         # These pass all their options on, --help as well.
@@ -36,9 +36,10 @@ def become(program, arguments, **environment):
 
 def demo_command(args):
     build.build(["gravity_fall"])
-    own_output = any(option in ("--help", "-h") or option.startswith("--out")
-                     for option in args.further)
-    out = [] if own_output else ["--out", str(ROOT / "videos" / "gravity_fall.mp4")]
+    # A window has no end by itself: what it shows is recorded only if that is asked for.
+    no_video = any(option in ("--help", "-h", "--view") or option.startswith("--out")
+                   for option in args.further)
+    out = [] if no_video else ["--out", str(ROOT / "videos" / "gravity_fall.mp4")]
     become(build.executable("gravity_fall"), [*out, *args.further])
 
 
