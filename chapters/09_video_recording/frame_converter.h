@@ -47,12 +47,20 @@ inline Rows rowsFromTop(const Pixels& pixels) {
     // ---- end of convert.flip
 }
 
+/// How libswscale names pixels of so many bytes, in the order in which the bytes lie in memory.
+inline AVPixelFormat formatOf(int channels) {
+    // ---- hole convert.format (about 1 line): Red first, green, blue; with alpha behind them or without
+    TODO_HOLE("convert.format");
+    return AV_PIX_FMT_GRAY8;
+    // ---- end of convert.format
+}
+
 /// Converts pictures of one kind to YUV 4:2:0: one y for each pixel, one u and v for each block of
 /// two by two.
 class FrameConverter {
 public:
     FrameConverter(int width, int height, int channels)
-        : context_(makeContext(width, height, channels == 4 ? AV_PIX_FMT_RGBA : AV_PIX_FMT_RGB24)) {
+        : context_(makeContext(width, height, formatOf(channels))) {
         if (!context_) throw std::runtime_error("video: libswscale cannot convert RGB to YUV");
         setColors(*context_);
     }

@@ -1,6 +1,7 @@
 // Chapter 09's executable: records a clip of hopping balls, and plays it to see what is in it.
 #include <iostream>
 
+#include "chapters/09_video_recording/color_block.h"
 #include "chapters/09_video_recording/contact_sheet.h"
 #include "chapters/09_video_recording/stage_times.h"
 #include "common/metrics.h"
@@ -29,6 +30,7 @@ int run(const Options& options) {
     findings.add("picture", video.pixelFormat + ", " + video.colorSpace + ", " + video.colorRange);
     findings.add("bytes drawn", std::int64_t{3} * options.width * options.height * options.frames);
     findings.add("state hash", hashText(stateHash(balls.at(options.frames - 1))));
+    addBlock(findings);
     if (options.time) addStageTimes(findings, balls, file.path);
     findings.print(options.json);
     if (!options.png.empty()) writePng(options.png, sheet);

@@ -39,7 +39,7 @@ public:
     /// Begins to read what has been drawn. With pixel buffers it returns at once: the driver copies
     /// the frame when the drawing is done, and meanwhile the next frame can be drawn.
     void start() {
-        way_ == Way::plain ? readInto(plain_[started_ % 2].bytes.data()) : startBuffer();
+        way_ == Way::plain ? startPlain() : startBuffer();
         ++started_;
     }
 
@@ -68,13 +68,14 @@ private:
         glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     }
 
-    /// Where a pixel buffer is bound, `target` counts from that buffer's beginning: null is its
-    /// first byte. Four bytes a pixel are a plain copy in every driver; three are slow.
-    void readInto(void* target) {
-        glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, target);
+    /// Four bytes a pixel are a plain copy in every driver; three are slow.
+    void startPlain() {
+        glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE,
+                     plain_[started_ % 2].bytes.data());
     }
 
-    /// Frame 0 goes to buffer 0, frame 1 to buffer 1, frame 2 to buffer 0 again.
+    /// Frame 0 goes to buffer 0, frame 1 to buffer 1, frame 2 to buffer 0 again. While a buffer is
+    /// bound, glReadPixels writes into it, and its pointer counts from the buffer's first byte.
     void startBuffer() {
         // ---- hole read.start (about 3 lines): Bind the buffer whose turn it is, read into it, unbind it
         TODO_HOLE("read.start");

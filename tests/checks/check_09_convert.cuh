@@ -139,6 +139,7 @@ inline void guessConversion(Report& report, const AVFrame& picture, const Frame&
         return true;
     };
     const auto at = [&](int x, int y) { return colorAt(frame, x, y); };
+    constexpr int whiteBar = barLeft + barWidth * (barBits - 1) + barWidth / 2;  // odd numbers
     report.guess(
         {{"nothing was converted",
           [&] {
@@ -156,9 +157,7 @@ inline void guessConversion(Report& report, const AVFrame& picture, const Frame&
               });
           }},
          {"full range: players expect 16 to 235",
-          [&] {
-              return std::abs(yuvAt(picture, 60, 10).y - 128) <= 2;  // grey; 126 in limited range
-          }},
+          [&] { return yuvAt(picture, whiteBar, barTop + 8).y >= 245; }},
          {"BT.601, the colours of old televisions",
           [&] {
               const Color c = at(corners[0].x, corners[0].y);

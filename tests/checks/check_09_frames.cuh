@@ -119,22 +119,21 @@ inline Frame errorsOf(const Frame& got, const Frame& expected) {
     return errors;
 }
 
-/// Three sheets of twelve frames side by side: yours, reference, errors. A frame that is missing
-/// leaves its place empty.
+/// Three sheets side by side: yours, reference, errors. Twelve frames from the first to the last;
+/// one that is missing leaves its place empty.
 inline Frame contactSheets(const std::vector<Frame>& got, const std::vector<Frame>& expected) {
     const int width = sheetColumns * (testWidth + gap), height = sheetRows * (testHeight + gap);
     constexpr int margin = 14;
     Frame sheet = blank(3 * width + 4 * margin, height + 2 * margin, white);
-    for (int k = 0; k < sheetFrames; ++k) {
-        const auto index = static_cast<std::size_t>(k);
-        const Frame missing = blank(testWidth, testHeight, {236, 236, 238});
-        const Frame& yours = index < got.size() ? got[index] : missing;
-        const Frame& right = index < expected.size() ? expected[index] : missing;
-        const int x = margin + k % sheetColumns * (testWidth + gap);
-        const int y = margin + k / sheetColumns * (testHeight + gap);
+    const Frame missing = blank(testWidth, testHeight, {226, 226, 228});
+    for (std::size_t k = 0; k < sheetFrames; ++k) {
+        const std::size_t number = k * (expected.size() - 1) / (sheetFrames - 1);
+        const Frame& yours = number < got.size() ? got[number] : missing;
+        const int x = margin + static_cast<int>(k) % sheetColumns * (testWidth + gap);
+        const int y = margin + static_cast<int>(k) / sheetColumns * (testHeight + gap);
         place(sheet, yours, x, y);
-        place(sheet, right, x + width + margin, y);
-        place(sheet, errorsOf(yours, right), x + 2 * (width + margin), y);
+        place(sheet, expected[number], x + width + margin, y);
+        place(sheet, errorsOf(yours, expected[number]), x + 2 * (width + margin), y);
     }
     return sheet;
 }
