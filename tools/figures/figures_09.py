@@ -54,8 +54,7 @@ def flip(run):
         fill = (RED, ORANGE, GREEN, BLUE)[row]
         figure.rectangle(left, y, 2 * cell, height, fill=fill, opacity=0.3)
         figure.text(left - 12, y + 25, f"byte {-step * row}", 13, anchor="end", code=True)
-        words = "bottom row" if row == 0 else "top row" if row == rows - 1 else f"row {rows - 1 - row}"
-        figure.text(left + cell, y + 25, words, 14)
+        figure.text(left + cell, y + 25, name_of_row(rows - 1 - row, rows), 14)
     x = left + 2 * cell + 18
     for row in range(rows - 1, 0, -1):
         y = high + row * height
@@ -68,10 +67,14 @@ def flip(run):
         fill = (BLUE, GREEN, ORANGE, RED)[row]
         y = high + row * height
         figure.rectangle(there, y, 2 * cell, height, fill=fill, opacity=0.3)
-        words = "top row" if row == 0 else "bottom row" if row == rows - 1 else f"row {row}"
-        figure.text(there + cell, y + 25, words, 14)
+        figure.text(there + cell, y + 25, name_of_row(row, rows), 14)
     figure.arrow(x + 74, high + 2 * height, there - 20, high + 2 * height, INK, 2.2, head=10)
     return figure.svg()
+
+
+def name_of_row(row, rows):
+    """Rows are counted from the top."""
+    return {0: "top row", rows - 1: "bottom row"}.get(row, f"row {row}")
 
 
 def yuv(run):
