@@ -9,6 +9,8 @@
 #include "08_sphere_rendering/sphere_renderer.h"
 #include "09_video_recording/video_recorder.h"
 #include "common/offscreen_context.h"
+#include "common/shared_vertices.h"
+#include "common/text.h"
 #include "common/timing.h"
 
 namespace ballpit {
@@ -27,33 +29,68 @@ void tellSpeed(const VideoRecorder& recorder, double milliseconds) {
 }  // namespace
 
 struct Film::Crew {
-    Crew(const Options& options, Bounds world)
-        : renderer(world, options.width, options.height), png(options.png) {
-        if (!options.out.empty()) {
-            recorder.emplace(options.out, options.width, options.height, framesPerSecond);
+    Crew(const FilmOrder& order, Bounds world)
+        : renderer(world, order.width, order.height), order(order) {
+        if (!order.video.empty()) {
+            recorder.emplace(order.video, order.width, order.height, framesPerSecond);
             if (!recorder->notice().empty()) std::cerr << "note: " << recorder->notice() << '\n';
         }
+    }
+    /// Members go in the reverse order, so all of OpenGL is gone before its context.
+    ~Crew() { context.makeCurrent(); }
+    Crew(const Crew&) = delete;
+
+    /// One frame: the picture that `draw` draws, text over it, recorded.
+    template <class Draw>
+    void take(Draw draw, const std::string& text) {
+        context.makeCurrent();
+        if (start == 0) start = milliseconds();
+        draw();
+        painter.draw(text, TextPainter::Place::topLeft, order.width, order.height);
+        if (recorder) recorder->captureFrame();
     }
 
     OffscreenContext context;
     SphereRenderer renderer;
+    TextPainter painter;
     std::optional<VideoRecorder> recorder;
-    std::string png;
+    FilmOrder order;
     double start = 0;  // of the first frame, ms
 };
 
-Film::Film(const Options& options, Bounds world) {
-    if (!options.out.empty() || !options.png.empty())
-        crew_ = std::make_unique<Crew>(options, world);
+Film::Film(const FilmOrder& order, Bounds world) {
+    if (!order.video.empty() || !order.lastPicture.empty())
+        crew_ = std::make_unique<Crew>(order, world);
 }
 
-Film::~Film() = default;
+Film::~Film() {
+    if (!vertices_) return;
+    crew_->context.makeCurrent();
+    vertices_.reset();
+}
+
+void Film::look(const Camera& camera, DrawStyle style) {
+    crew_->renderer.camera = camera;
+    crew_->renderer.style = style;
+}
 
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
-                   const std::vector<Vec3>& colors) {
-    if (crew_->start == 0) crew_->start = milliseconds();
-    crew_->renderer.draw(positions, radii, colors);
-    if (crew_->recorder) crew_->recorder->captureFrame();
+                   const std::vector<Vec3>& colors, const std::string& text) {
+    crew_->take([&] { crew_->renderer.draw(positions, radii, colors); }, text);
+}
+
+void Film::captureFromBuffer(float largestRadius, const std::vector<Vec3>& colors,
+                             const std::string& text) {
+    const auto draw = [&] {
+        crew_->renderer.setColors(colors);
+        crew_->renderer.drawFromBuffer(largestRadius);
+    };
+    crew_->take(draw, text);
+}
+
+SphereRenderer& Film::renderer() {
+    crew_->context.makeCurrent();
+    return crew_->renderer;
 }
 
 void Film::walkAround(float degrees) {
@@ -66,11 +103,13 @@ void Film::walkAround(float degrees) {
 
 void Film::finish() {
     if (!crew_) return;
+    crew_->context.makeCurrent();
     if (crew_->recorder) {
         crew_->recorder->release();
         tellSpeed(*crew_->recorder, milliseconds() - crew_->start);
     }
-    if (!crew_->png.empty()) writePng(crew_->png, crew_->renderer.read());
+    if (!crew_->order.lastPicture.empty())
+        writePng(crew_->order.lastPicture, crew_->renderer.read());
 }
 
 }  // namespace ballpit

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "common/csv.h"
 #include "common/error.h"
@@ -19,7 +20,10 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
                    "cuda or cpu: the same bits on both; by default the GPU "
                    "where there is one")
         ->check(CLI::IsMember({"cuda", "cpu"}));
-    app.add_option("--count", o.count, "number of balls")->capture_default_str();
+    if (app.get_option_no_throw("--scene"))
+        app.add_option("--count", o.count, "number of balls (default: the scene's own)");
+    else
+        app.add_option("--count", o.count, "number of balls")->capture_default_str();
     app.add_option("--seed", o.seed, "seed of the scene")->capture_default_str();
     app.add_option("--out", o.out, "video to write (.mp4, .mkv, .mov or .avi)");
     app.add_option("--png", o.png, "picture of the last frame to write");
@@ -28,12 +32,30 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
     app.add_flag("--json", o.json, "print what was found as JSON");
 }
 
+void addResponseOptions(CLI::App& app, Options& o) {
+    app.add_option("--response", o.response,
+                   "how collisions are resolved: " + responseNames())
+        ->capture_default_str();
+    app.add_option("--iterations", o.knobs.iterations,
+                   "detect and resolve rounds a step; with warm and small-steps: passes a substep "
+                   "(default: 2, warm 8, small-steps 1)");
+    app.add_option("--substeps", o.knobs.substeps,
+                   "moves a step, with small-steps (default: 6) or penalty (default: 16)");
+    app.add_option("--relaxation", o.knobs.relaxation,
+                   "share of each impulse that jacobi uses (default: 1)");
+    app.add_option("--restitution-threshold", o.knobs.restitutionThreshold,
+                   "m/s below which nothing bounces, with jacobi, coloured (default: 0), warm, "
+                   "small-steps (default: what falls in two substeps)");
+    app.add_option("--position-share", o.knobs.positionShare,
+                   "share of an overlap that a round of jacobi, coloured (default: 1) or warm "
+                   "(default: 0.2) takes away");
+}
+
 void addSimulationOptions(CLI::App& app, Options& o) {
-    app.add_option("--scene", o.scene, "gravity_fall, uniform, gas or pile")->capture_default_str();
+    app.add_option("--scene", o.scene, sceneNames())->capture_default_str();
     app.add_option("--frames", o.frames, "steps to simulate, one video frame each")
         ->capture_default_str();
-    app.add_option("--iterations", o.iterations, "detect and resolve rounds a step")
-        ->capture_default_str();
+    addResponseOptions(app, o);
     app.add_option("--dt", o.dt, "time step in s (default: 1/60)");
     app.add_option("--gravity", o.gravity, "acceleration along y in m/s^2 (default: the scene's)");
     app.add_option("--damping", o.damping, "share of its velocity a ball loses a second");
@@ -41,6 +63,11 @@ void addSimulationOptions(CLI::App& app, Options& o) {
     app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
     app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
     app.add_option("--save", o.saveFile, "CSV to write the final balls to");
+    app.add_flag("--view", o.view,
+                 "open a window (H shows its keys); it ends when you close it, or after --frames");
+    app.add_flag("--ledger", o.ledger, "draw the figures on recorded frames");
+    app.add_flag("--ledger-times", o.ledgerTimes, "the same, with times, which differ each time");
+    app.add_flag("--report-state", o.reportState)->group("");  // for tests
 }
 
 void addChapterOptions(CLI::App& app, Options& o) {
@@ -87,13 +114,35 @@ std::string oneLine(const CLI::App& app, const CLI::ParseError& error, int argc,
     return text + " (--help shows the options)";
 }
 
+/// The number of balls where --count does not say it.
+int usualCount(const CLI::App& app, const Options& o) {
+    if (o.time) return o.timedCount;
+    return app.get_option_no_throw("--scene") ? sceneKind(o.scene).usualCount : o.count;
+}
+
+/// What follows from the options that were given, and from those that were not.
+void complete(const CLI::App& app, Options& o) {
+    const auto given = [&](const char* name) { return app[name]->count() > 0; };
+    if (!given("--count")) o.count = usualCount(app, o);
+    if (o.view && !given("--frames")) {
+        o.endless = true;
+        o.frames = std::numeric_limits<int>::max();
+    }
+    if (given("--width")) o.windowWidth = o.width;
+    if (given("--height")) o.windowHeight = o.height;
+    o.ledger |= o.ledgerTimes;
+}
+
 void requireInRange(const Options& o) {
     const auto require = [](bool good, const std::string& message) {
         if (!good) throw InputError(message);
     };
     require(o.count >= 1, "--count " + std::to_string(o.count) + ": at least 1 ball");
     require(o.frames >= 1, "--frames " + std::to_string(o.frames) + ": at least 1");
-    require(o.iterations >= 1, "--iterations " + std::to_string(o.iterations) + ": at least 1");
+    if (o.knobs.iterations)
+        require(*o.knobs.iterations >= 1,
+                "--iterations " + std::to_string(*o.knobs.iterations) + ": at least 1");
+    requireSensible(responseMethod(o.response), o.knobs);
     for (const int size : {o.width, o.height})
         require(size >= 16 && size <= 8192 && size % 2 == 0,
                 "frame size " + std::to_string(size) + ": an even number from 16 to 8192");
@@ -114,7 +163,8 @@ void requireInRange(const Options& o) {
 
 Scene sceneFor(const Options& o) {
     // With balls of the user's own, the scene still gives the world around them.
-    Scene scene = makeScene(o.scene, o.spheresFile.empty() ? o.count : 1, o.seed);
+    Scene scene =
+        makeScene(o.scene, o.spheresFile.empty() ? o.count : sceneKind(o.scene).usualCount, o.seed);
     if (!o.spheresFile.empty()) scene.spheres = readSpheres(o.spheresFile);
     if (o.dt) scene.dt = *o.dt;
     if (o.gravity) scene.gravity = {0, *o.gravity, 0};
@@ -139,11 +189,11 @@ int parseAndRun(CLI::App& app, int argc, char** argv, Options& options, std::str
         std::cerr << "error: " << oneLine(app, error, argc, argv) << '\n';
         return exitBadInput;
     }
-    if (options.time && app["--count"]->count() == 0) options.count = options.timedCount;
     options.device = device.empty()     ? defaultDevice()
                      : device == "cuda" ? Device::cuda
                                         : Device::cpu;
     return reportingErrors([&] {
+        complete(app, options);
         requireInRange(options);
         return run(options);
     });

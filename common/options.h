@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/device.h"
+#include "common/response_method.h"
 #include "common/scene.h"
 
 namespace ballpit {
@@ -18,16 +19,23 @@ struct Options {
     int count = 500;
     std::uint64_t seed = 1;
     int frames = 600;
-    int iterations = 2;
+    std::string response = "mass-split";
+    ResponseKnobs knobs;  ///< of the response
     std::optional<float> dt, gravity, damping, restitution, cellSize;
     std::string out;                  ///< video to write; empty: none
     std::string png;                  ///< picture of the last frame; empty: none
     std::string spheresFile;          ///< CSV to start from instead of the scene's bodies
     std::string saveFile;             ///< CSV to write at the end
     int width = 1920, height = 1080;  ///< of frames, pixels
-    bool json = false;                ///< the summary as JSON
-    bool time = false;                ///< measure speed (chapters)
-    int timedCount = 200'000;         ///< balls with --time, where --count is not given
+    bool ledger = false;              ///< figures drawn on frames
+    bool ledgerTimes = false;         ///< times among them
+    bool view = false;                ///< a window
+    bool endless = false;             ///< no limit to the steps: a window without --frames
+    int windowWidth = 1280, windowHeight = 720;  ///< at first, pixels
+    bool reportState = false;                    ///< the window tells tests what it shows
+    bool json = false;                           ///< the summary as JSON
+    bool time = false;                           ///< measure speed (chapters)
+    int timedCount = 200'000;                    ///< balls with --time, where --count is not given
 };
 
 /// The scene that the options describe: made by name or read from the CSV, then changed by the
