@@ -78,6 +78,14 @@ def response(d):
                                          "milliseconds")]
 
 
+def recording(d):
+    return [digits(d[name]) for name in (
+        "draw,_ms_a_frame", "read_plainly,_ms_a_frame", "convert,_ms_a_frame",
+        "encode,_ms_a_frame", "one_after_the_other,_ms_a_frame",
+        "draw_and_read_plainly,_ms_a_frame", "draw_and_read_through_buffers,_ms_a_frame",
+        "recorder,_ms_a_frame", "recorder,_frames_a_second")]
+
+
 TABLES = {
     "00": ("00_hello_spheres", SIZES, ["ms", "GB/s written"], hello),
     "01": ("01_naive_collision", DOUBLED, ["comparisons", "ms", "comparisons a nanosecond"], naive),
@@ -94,12 +102,18 @@ TABLES = {
             "grid and search, ms"], broad_phase),
     "07": ("07_impulse_response", {"cpu": [1000, 100000], "cuda": [1000, 100000, MILLION]},
            ["in place, ms", "atomic, ms", "gathered, ms"], response),
+    "09": ("09_video_recording", {"cpu": [500, 10000], "cuda": []},
+           ["draw, ms", "read, ms", "convert, ms", "encode, ms", "one after the other, ms",
+            "draw and read, ms", "through buffers, ms", "recorder, ms", "frames a second"],
+           recording),
 }
 
 
 def measured(program, device, count, threads):
     """What the program prints, with the median of the runs in each time."""
-    environment = {**os.environ, "OMP_PROC_BIND": "close", "OMP_PLACES": "cores"}
+    environment = dict(os.environ)
+    if program.parent / "09_video_recording_reference" != program:  # its encoder wants all cores
+        environment |= {"OMP_PROC_BIND": "close", "OMP_PLACES": "cores"}
     if threads:
         environment["OMP_NUM_THREADS"] = str(threads)
     command = [str(program), "--device", device, "--count", str(count), "--time", "--json"]
@@ -167,7 +181,8 @@ def main():
     for chapter in args.chapters or TABLES:
         if chapter not in TABLES:
             parser.error(f"unknown chapter '{chapter}': known are {', '.join(TABLES)}")
-        update(chapter, device, build, [""] if args.cuda else [1, 2])
+        one_way = args.cuda or chapter == "09"  # its threads are not OpenMP's
+        update(chapter, device, build, [""] if one_way else [1, 2])
 
 
 if __name__ == "__main__":
