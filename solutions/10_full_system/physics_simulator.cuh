@@ -13,6 +13,7 @@
 
 #include "10_full_system/step_rounds.cuh"
 #include "10_full_system/step_stages.cuh"
+//@starter #include "common/hole.cuh"
 #include "common/launch_recording.cuh"
 
 namespace ballpit {
@@ -26,7 +27,10 @@ public:
     /// NotFiniteError naming the body, step and stage, with the state before this step kept.
     StepStats step() {
         const StepStats stats = attemptUntilComplete();
+        //@hole system.commit lines=1 "The copies in which the step ended become the state"
+        //@starter TODO_HOLE("system.commit");
         bodies_.commit(next_);
+        //@end
         ++stepsDone_;
         return stats;
     }
@@ -81,17 +85,23 @@ private:
         for (;;) {
             const StepStatus status = attempt(rebuild);
             requireCountable(status);
+            //@hole system.grow lines=5 "More pairs than places? Tell how many, make room, try again"
+            //@starter TODO_HOLE("system.grow");
             if (status.pairsNeeded > pairs_.pairs.count()) {
                 stats.overflow = status.pairsNeeded - capacityBefore;
                 growPairList(status.pairsNeeded);
                 continue;
             }
+            //@end
             requireFinite(status, stepsDone_);
+            //@hole system.rebuild lines=5 "Stale grid? Try again with a grid in every round"
+            //@starter TODO_HOLE("system.rebuild");
             if (status.staleGrid && settings_.iterations > 1 && !rebuild) {
                 rebuild = true;
                 rebuildUntil_ = stepsDone_ + rebuildSteps;
                 continue;
             }
+            //@end
             stats.collisions = status.collisions;
             stats.outside = status.outside;
             break;

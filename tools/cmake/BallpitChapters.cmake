@@ -36,13 +36,18 @@ endfunction()
 
 # NN_name and check_NN from the student's piece, and both again from the solution. STUDIO: the piece
 # is a part of the studio, so the student's programs and both checks get a studio of their own.
+# PRODUCT name: the solution's program is called so, NN_name_reference is another name for it, and
+# the student's program gets a studio of its own.
 function(ballpit_chapter folder)
-    cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO" "" "")
+    cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO" "PRODUCT" "")
     string(SUBSTRING ${folder} 0 2 label)
     ballpit_forward_pieces(${label})
     foreach(variant "" "_reference")
         set(main ${folder}${variant})
         set(check check_${label}${variant})
+        if(variant AND chapter_PRODUCT)
+            set(main ${chapter_PRODUCT})
+        endif()
         add_executable(${main} chapters/${folder}/main.cu)
         add_executable(${check} tests/checks/check_${label}.cu)
         if(variant)
@@ -56,12 +61,18 @@ function(ballpit_chapter folder)
         if(chapter_STUDIO)
             ballpit_studio(${check})
         endif()
-        if(chapter_STUDIO AND NOT variant)
+        if((chapter_STUDIO OR chapter_PRODUCT) AND NOT variant)
             ballpit_studio(${main})
         else()
             target_link_libraries(${main} PRIVATE ballpit_film)
         endif()
     endforeach()
+    if(chapter_PRODUCT)
+        add_custom_target(${folder}_reference ALL
+            ${CMAKE_COMMAND} -E create_symlink ${chapter_PRODUCT}
+                             ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${folder}_reference
+            DEPENDS ${chapter_PRODUCT})
+    endif()
     if(BUILD_TESTING)
         # The solution passes its own checks; the student's are no test of ours.
         add_test(NAME ${check} COMMAND ${check})
