@@ -41,6 +41,9 @@ void addSimulationOptions(CLI::App& app, Options& o) {
     app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
     app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
     app.add_option("--save", o.saveFile, "CSV to write the final balls to");
+    app.add_flag("--time", o.time,
+                 "only measure a step of a pile, of " + std::to_string(o.timedCount) +
+                     " balls unless --count says otherwise");
 }
 
 void addChapterOptions(CLI::App& app, Options& o) {

@@ -7,7 +7,7 @@
 
 namespace ballpit {
 
-HD inline void copyBody(int i, BodiesView from, BodiesView to) {
+HD inline void passOnBody(int i, BodiesView from, BodiesView to) {
     to.positions[i] = from.positions[i];
     to.velocities[i] = from.velocities[i];
     to.restitutions[i] = from.restitutions[i];
@@ -15,7 +15,7 @@ HD inline void copyBody(int i, BodiesView from, BodiesView to) {
 }
 
 inline void passOn(Device device, int count, BodiesView from, BodiesView to) {
-    launch<copyBody>(device, count, from, to);
+    launch<passOnBody>(device, count, from, to);
 }
 
 }  // namespace ballpit

@@ -15,7 +15,7 @@ using Copies = RigidBodySystem::Copies;
 inline std::size_t otherWorkingCopy(std::size_t committed, std::size_t inUse) {
     // ---- hole system.copies (about 2 lines): A copy that is neither committed nor in use
     TODO_HOLE("system.copies");
-    return inUse;
+    return (inUse + 1) % RigidBodySystem::copyCount;  // the next one, whatever lies there
     // ---- end of system.copies
 }
 

@@ -15,7 +15,7 @@ using Copies = RigidBodySystem::Copies;
 inline std::size_t otherWorkingCopy(std::size_t committed, std::size_t inUse) {
     //@hole system.copies lines=2 "A copy that is neither committed nor in use"
     //@starter TODO_HOLE("system.copies");
-    //@starter return inUse;
+    //@starter return (inUse + 1) % RigidBodySystem::copyCount;  // the next one, whatever lies there
     if (inUse == committed) return (committed + 1) % RigidBodySystem::copyCount;
     return 3 - committed - inUse;
     //@end
