@@ -101,8 +101,8 @@ inline void requireUntouched(Report& report, const std::string& what, const Sphe
 
 /// How a step is composed. Other values than these are mistakes.
 struct StepRules {
-    int rounds = 2, moves = 1;
-    bool contacts = true;
+    int rounds = 2;
+    bool contacts = true, movesInEveryRound = false;
 };
 
 inline Pairs everyPair(const Spheres& balls) {
@@ -164,8 +164,9 @@ inline void spreadUncertainty(ComposedStep& step, std::vector<bool> now) {
 
 inline ComposedStep composedStep(const Scene& scene, const StepRules& rules) {
     ComposedStep step{scene.spheres, std::vector<bool>(scene.spheres.count(), false)};
-    for (int k = 0; k < rules.moves; ++k) moveOnHost(step.balls, scene);
+    moveOnHost(step.balls, scene);
     for (int round = 0; rules.contacts && round < rules.rounds; ++round) {
+        if (round > 0 && rules.movesInEveryRound) moveOnHost(step.balls, scene);
         spreadUncertainty(step, step.uncertain);
         step.balls = oracle({step.balls, everyPair(step.balls)}, {.split = true});
     }

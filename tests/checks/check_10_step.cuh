@@ -46,21 +46,25 @@ inline void arrow(Canvas& canvas, const Panel& panel, Vec3 from, Vec3 along, Vec
                     color);
 }
 
-/// The rows after the step: yours, the reference, and in red the balls that differ.
+/// The rows after the step: yours, the reference, and yours in red where it is elsewhere or flies
+/// otherwise.
 inline Frame drawRows(const Spheres& got, const Spheres& expected) {
+    constexpr float seconds = 0.09f;  // an arrow shows how far the ball flies in this time
     return threePanels(-2.9f, -2.9f, 5.8f, 300, [&](Canvas& canvas, const Panel& panel, int k) {
-        for (std::size_t b = 0; b < got.count(); ++b) {
-            const Spheres& shown = k == 0 ? got : expected;
-            const Vec3 p = shown.positions[b], v = 0.12f * shown.velocities[b];
+        const Spheres& shown = k == 0 ? got : expected;
+        for (const Vec3 p : shown.positions) {
             canvas.disc(panel.x(p.x), panel.y(p.y), panel.scale * 0.5f, colors::line);
             canvas.ring(panel.x(p.x), panel.y(p.y), panel.scale * 0.5f, 1.0f, colors::grey);
-            const bool right = length(got.positions[b] - p) < 1e-3f &&
-                               length(got.velocities[b] - shown.velocities[b]) < 1e-3f;
-            if (k < 2 || right) arrow(canvas, panel, p, v, k < 2 ? colors::ink : colors::grey);
+        }
+        for (std::size_t b = 0; b < got.count(); ++b) {
+            const Vec3 p = got.positions[b], v = got.velocities[b];
+            const bool right = length(p - expected.positions[b]) < 0.02f &&
+                               length(v - expected.velocities[b]) < 1e-3f;
+            arrow(canvas, panel, shown.positions[b], seconds * shown.velocities[b],
+                  k < 2 ? colors::ink : colors::grey);
             if (k < 2 || right) continue;
-            const Vec3 q = got.positions[b];
-            canvas.ring(panel.x(q.x), panel.y(q.y), panel.scale * 0.5f, 2.0f, colors::red);
-            arrow(canvas, panel, q, 0.12f * got.velocities[b], colors::red);
+            canvas.ring(panel.x(p.x), panel.y(p.y), panel.scale * 0.5f, 2.0f, colors::red);
+            arrow(canvas, panel, p, seconds * v, colors::red);
         }
     });
 }
@@ -74,7 +78,7 @@ inline std::vector<Mistake> mistakesOf(const Scene& scene, const Spheres& got, i
             {"only one round counts: is there a second, and does it read what the first wrote?",
              with({.rounds = 1})},
             {"the bodies moved in every round: dt was used " + text(rounds) + " times",
-             with({.rounds = rounds, .moves = rounds})},
+             with({.rounds = rounds, .movesInEveryRound = true})},
             {"a round too many", with({.rounds = rounds + 1})},
             {"a round too few", with({.rounds = rounds - 1})}};
 }
