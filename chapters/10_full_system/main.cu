@@ -12,7 +12,7 @@ static int run(const Options& options) {
     const Summary summary = runScene(options);
     printSummary(summary, options.json);
     constexpr int stoppedByUser = 130;  // what a shell expects after Ctrl-C
-    return summary.steps < summary.stepsAsked ? stoppedByUser : int(exitOk);
+    return summary.interrupted ? stoppedByUser : int(exitOk);
 }
 
 int main(int argc, char** argv) {

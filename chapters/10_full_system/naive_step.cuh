@@ -25,9 +25,9 @@ HD inline void writeNaively(int i, int count, View<const Vec4> positions, PairsV
 }
 
 /// The same step, but every ball is compared with every other.
-class NaiveStep : public StepStages {
+class NaiveStep : public EngineStages {
 public:
-    NaiveStep(const SimulatorSettings& settings, const Spheres& spheres) : StepStages(settings) {
+    NaiveStep(const SimulatorSettings& settings, const Spheres& spheres) : EngineStages(settings) {
         bodies_.upload(spheres);
         run();  // the first one shows how long the list must be
         const std::size_t room = 2 * pairs_.starts.download().back();

@@ -11,17 +11,17 @@
 #include <map>
 #include <tuple>
 
-#include "10_full_system/step_rounds.cuh"
-#include "10_full_system/step_stages.cuh"
+#include "10_full_system/one_step.cuh"
+#include "10_full_system/engine_stages.cuh"
 #include "common/hole.cuh"
 #include "common/launch_recording.cuh"
 
 namespace ballpit {
 
-/// The whole engine. Its stages, with the bodies and all memory, are in StepStages.
-class PhysicsSimulator : public StepStages {
+/// The whole engine. Its stages, with the bodies and all memory, are in EngineStages.
+class PhysicsSimulator : public EngineStages {
 public:
-    using StepStages::StepStages;
+    using EngineStages::EngineStages;
 
     /// Advances all bodies by dt. InputError if a ball is larger than a cell or than the world;
     /// NotFiniteError naming the body, step and stage, with the state before this step kept.

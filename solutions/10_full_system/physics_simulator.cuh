@@ -11,17 +11,17 @@
 #include <map>
 #include <tuple>
 
-#include "10_full_system/step_rounds.cuh"
-#include "10_full_system/step_stages.cuh"
+#include "10_full_system/engine_stages.cuh"
+#include "10_full_system/one_step.cuh"
 //@starter #include "common/hole.cuh"
 #include "common/launch_recording.cuh"
 
 namespace ballpit {
 
-/// The whole engine. Its stages, with the bodies and all memory, are in StepStages.
-class PhysicsSimulator : public StepStages {
+/// The whole engine. Its stages, with the bodies and all memory, are in EngineStages.
+class PhysicsSimulator : public EngineStages {
 public:
-    using StepStages::StepStages;
+    using EngineStages::EngineStages;
 
     /// Advances all bodies by dt. InputError if a ball is larger than a cell or than the world;
     /// NotFiniteError naming the body, step and stage, with the state before this step kept.
@@ -37,6 +37,12 @@ public:
 
     /// Does all of a step's work, but keeps the state from before it. For measuring.
     StepStats rehearseStep() { return attemptUntilComplete(); }
+
+    /// Whether steps fill StepStats::stages from now on.
+    void timeStages(bool on) {
+        settings_.timeStages = on;
+        timer_.enable(on);
+    }
 
     /// The touching pairs of the last round of the last step or rehearsal, by body number:
     /// first < second, sorted.

@@ -61,9 +61,7 @@ void anyOrder(Report& report) {
 int main(int argc, char** argv) {
     return checkMain(
         argc, argv, "10",
-        {{"system.copies", "The free copy is neither committed nor in use",
-          "A step that writes into the committed copy has nothing to go back to.", copies},
-         {"system.integrate",
+        {{"system.integrate",
           "Integrate writes the moved bodies to the other copy, and their cells",
           "The cells must be those of the places where the bodies are now.", integrateStage},
          {"system.build_grid",
@@ -76,6 +74,8 @@ int main(int argc, char** argv) {
          {"system.resolve", "Resolve writes the other copy, and tells when a body moved too far",
           "A grid bears a way of half a cell less the radius. Beyond that, pairs can be missed.",
           resolveStage},
+         {"system.copies", "The free copy is neither committed nor in use",
+          "A step that writes into the committed copy has nothing to go back to.", copies},
          {"system.begin", "First the bodies move, then the grid is built where they are",
           "A grid from before the motion misses whoever flies into another cell.", begin},
          {"system.rounds", "Each round sees what the round before has written",

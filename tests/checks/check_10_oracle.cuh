@@ -14,10 +14,10 @@ using Pairs = std::vector<Pair>;
 // ---- the stages by themselves
 
 /// The stages of a step, to be called one by one, and what they leave behind.
-class Probe : public StepStages {
+class Probe : public EngineStages {
 public:
     Probe(const Scene& scene, Device device, int rounds = 2)
-        : StepStages([&] {
+        : EngineStages([&] {
               SimulatorSettings settings = settingsFor(scene, device);
               settings.iterations = rounds;
               return settings;
@@ -67,7 +67,7 @@ public:
 
 /// The bodies in some copies. Fails, and returns nothing to compare, unless every body lies in one
 /// slot there.
-inline bool readCopies(Report& report, StepStages& stages, Copies copies, Spheres& spheres) {
+inline bool readCopies(Report& report, EngineStages& stages, Copies copies, Spheres& spheres) {
     const std::vector<std::uint32_t> ids = stages.bodies().idsInMemoryOrder(copies);
     std::vector<std::uint32_t> sorted = ids;
     std::sort(sorted.begin(), sorted.end());

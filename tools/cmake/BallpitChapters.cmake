@@ -37,7 +37,7 @@ endfunction()
 # NN_name and check_NN from the student's piece, and both again from the solution. STUDIO: the piece
 # is a part of the studio, so the student's programs and both checks get a studio of their own.
 # PRODUCT name: the solution's program is called so, NN_name_reference is another name for it, and
-# the student's program gets a studio of its own.
+# both programs have the window as well, the student's with the student's own studio.
 function(ballpit_chapter folder)
     cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO" "PRODUCT" "")
     string(SUBSTRING ${folder} 0 2 label)
@@ -61,7 +61,11 @@ function(ballpit_chapter folder)
         if(chapter_STUDIO)
             ballpit_studio(${check})
         endif()
-        if((chapter_STUDIO OR chapter_PRODUCT) AND NOT variant)
+        if(chapter_PRODUCT AND variant)
+            target_link_libraries(${main} PRIVATE ballpit_viewer)
+        elseif(chapter_PRODUCT)
+            ballpit_studio(${main} VIEWER)
+        elseif(chapter_STUDIO AND NOT variant)
             ballpit_studio(${main})
         else()
             target_link_libraries(${main} PRIVATE ballpit_film)

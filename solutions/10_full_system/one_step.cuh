@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "10_full_system/step_stages.cuh"
+#include "10_full_system/engine_stages.cuh"
 //@starter #include "common/hole.cuh"
 
 namespace ballpit {
@@ -22,7 +22,7 @@ inline std::size_t otherWorkingCopy(std::size_t committed, std::size_t inUse) {
 }
 
 /// Builds the grid; the bodies go to the working copies that are free, which are returned.
-inline Copies sortInto(StepStages& stages, Copies committed, Copies now) {
+inline Copies sortInto(EngineStages& stages, Copies committed, Copies now) {
     const Copies sorted{otherWorkingCopy(committed.moving, now.moving),
                         otherWorkingCopy(committed.fixed, now.fixed)};
     stages.buildGrid(now, sorted);
@@ -40,7 +40,7 @@ inline float motionShare(int round, int rounds, bool rebuild) {
 
 /// Enqueues all stages of a step that starts from the copies `from`, which stay as they are.
 /// Returns the copies that will hold the result. `rebuild`: the grid is built in every round.
-inline Copies enqueueStep(StepStages& stages, Copies from, bool rebuild) {
+inline Copies enqueueStep(EngineStages& stages, Copies from, bool rebuild) {
     const int rounds = stages.settings().iterations;
     stages.beginReport();
     Copies now = from;
