@@ -11,8 +11,8 @@
 #include <map>
 #include <tuple>
 
-#include "10_full_system/one_step.cuh"
 #include "10_full_system/engine_stages.cuh"
+#include "10_full_system/one_step.cuh"
 #include "common/hole.cuh"
 #include "common/launch_recording.cuh"
 
@@ -36,6 +36,12 @@ public:
 
     /// Does all of a step's work, but keeps the state from before it. For measuring.
     StepStats rehearseStep() { return attemptUntilComplete(); }
+
+    /// Whether steps fill StepStats::stages from now on.
+    void timeStages(bool on) {
+        settings_.timeStages = on;
+        timer_.enable(on);
+    }
 
     /// The touching pairs of the last round of the last step or rehearsal, by body number:
     /// first < second, sorted.
