@@ -1,5 +1,6 @@
-// What chapter 10's checks compare with: a whole step composed on the host, in double precision,
-// from every ball against every other and chapter 07's oracle. No grid, no copies, no repeats.
+// What chapter 10's checks compare with: a whole step composed on the host, from motion in double
+// precision, every ball against every other, and chapter 07's oracle. No grid, no copies, no
+// repeats.
 #pragma once
 
 #include "10_full_system/physics_simulator.cuh"
@@ -105,12 +106,15 @@ struct StepRules {
     bool contacts = true, movesInEveryRound = false;
 };
 
+/// All touching pairs, by the rule of chapter 01 written out again.
 inline Pairs everyPair(const Spheres& balls) {
     Pairs pairs;
     for (std::uint32_t a = 0; a < balls.count(); ++a)
         for (std::uint32_t b = a + 1; b < balls.count(); ++b) {
-            const Vec3d between = wide(balls.positions[b]) + -1.0 * wide(balls.positions[a]);
-            if (length(between) < double(balls.radii[a]) + balls.radii[b]) pairs.push_back({a, b});
+            const Vec3 p = balls.positions[a], q = balls.positions[b];
+            const float dx = q.x - p.x, dy = q.y - p.y, dz = q.z - p.z;
+            const float reach = balls.radii[a] + balls.radii[b];
+            if (dx * dx + dy * dy + dz * dz < reach * reach) pairs.push_back({a, b});
         }
     return pairs;
 }
@@ -136,41 +140,41 @@ inline void moveOnHost(Spheres& balls, const Scene& scene) {
     }
 }
 
-/// A pair that rounding decides: just touching or just not, just approaching or just not. With it,
-/// the number of a ball's contacts is uncertain, and so is what each of them does.
-inline bool isClose(const Line& line, double reach) {
-    return std::abs(line.distance - reach) < 1e-5 ||
-           (line.distance < reach && std::abs(line.speedA - line.speedB) < 1e-5);
+/// What a round makes of the balls.
+inline Spheres roundOnHost(const Spheres& balls) {
+    return oracle({balls, everyPair(balls)}, {.split = true});
 }
 
-/// The state after one step, and for which balls rounding decides.
-struct ComposedStep {
-    Spheres balls;
-    std::vector<bool> uncertain;
-};
-
-inline void spreadUncertainty(ComposedStep& step, std::vector<bool> now) {
-    for (std::uint32_t a = 0; a < step.balls.count(); ++a)
-        for (std::uint32_t b = a + 1; b < step.balls.count(); ++b) {
-            const double reach = double(step.balls.radii[a]) + step.balls.radii[b];
-            const Line line = lineOf({a, b}, step.balls);
-            if (isClose(line, reach)) now[a] = now[b] = true;
-        }
-    step.uncertain = now;
-    for (const Pair pair : everyPair(step.balls))
-        for (const auto [a, b] : {pair, Pair{pair.second, pair.first}})
-            if (now[a]) step.uncertain[b] = true;
-}
-
-inline ComposedStep composedStep(const Scene& scene, const StepRules& rules) {
-    ComposedStep step{scene.spheres, std::vector<bool>(scene.spheres.count(), false)};
-    moveOnHost(step.balls, scene);
+/// The balls after one step.
+inline Spheres composedStep(const Scene& scene, const StepRules& rules) {
+    Spheres balls = scene.spheres;
+    moveOnHost(balls, scene);
     for (int round = 0; rules.contacts && round < rules.rounds; ++round) {
-        if (round > 0 && rules.movesInEveryRound) moveOnHost(step.balls, scene);
-        spreadUncertainty(step, step.uncertain);
-        step.balls = oracle({step.balls, everyPair(step.balls)}, {.split = true});
+        if (round > 0 && rules.movesInEveryRound) moveOnHost(balls, scene);
+        balls = roundOnHost(balls);
     }
-    return step;
+    return balls;
+}
+
+/// Whether two balls touch or approach may hang on a rounding. Then the numbers of their contacts
+/// do as well, and what each of these does: for which balls?
+inline std::vector<bool> decidedByRounding(const Spheres& balls) {
+    constexpr double little = 1e-5;  // m, m/s
+    std::vector<bool> close(balls.count(), false);
+    for (std::uint32_t a = 0; a < balls.count(); ++a)
+        for (std::uint32_t b = a + 1; b < balls.count(); ++b) {
+            const Line line = lineOf({a, b}, balls);
+            const double reach = double(balls.radii[a]) + balls.radii[b];
+            if (std::abs(line.distance - reach) < little ||
+                (line.distance < reach && std::abs(line.speedA - line.speedB) < little))
+                close[a] = close[b] = true;
+        }
+    std::vector<bool> decided = close;
+    for (const auto [a, b] : everyPair(balls)) {
+        if (close[a]) decided[b] = true;
+        if (close[b]) decided[a] = true;
+    }
+    return decided;
 }
 
 inline bool sameBalls(const Spheres& got, const Spheres& expected) {

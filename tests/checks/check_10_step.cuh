@@ -25,14 +25,14 @@ inline void begin(Report& report) {
     Spheres got;
     if (!oneStepOf(report, probe, false, got)) return;
     requireUntouched(report, "the committed copy", probe.bodies().download(), scene.spheres);
-    const auto expected = composedStep(scene, {.rounds = 1});
-    requireSameBalls(report, "two balls that meet", got, expected.balls, 1e-4f);
+    const Spheres expected = composedStep(scene, {.rounds = 1});
+    requireSameBalls(report, "two balls that meet", got, expected, 1e-4f);
     report.guess({{"the grid was built before the bodies moved: who meets is not found",
-                   [&] { return sameBalls(got, composedStep(scene, {.contacts = false}).balls); }},
+                   [&] { return sameBalls(got, composedStep(scene, {.contacts = false})); }},
                   {"nobody moved", [&] {
                        Scene still = scene;
                        still.dt = 0;
-                       return sameBalls(got, composedStep(still, {.contacts = false}).balls);
+                       return sameBalls(got, composedStep(still, {.contacts = false}));
                    }}});
 }
 
@@ -71,7 +71,7 @@ inline Frame drawRows(const Spheres& got, const Spheres& expected) {
 
 inline std::vector<Mistake> mistakesOf(const Scene& scene, const Spheres& got, int rounds) {
     const auto with = [&](StepRules rules) {
-        return [&scene, &got, rules] { return sameBalls(got, composedStep(scene, rules).balls); };
+        return [&scene, &got, rules] { return sameBalls(got, composedStep(scene, rules)); };
     };
     return {{"the contacts changed nothing: does the step go on from what they wrote?",
              with({.contacts = false})},
@@ -101,7 +101,7 @@ inline void rounds(Report& report) {
         Probe probe(scene, report.device);
         Spheres got;
         if (!oneStepOf(report, probe, rebuild, got)) return;
-        const Spheres expected = composedStep(scene, {}).balls;
+        const Spheres expected = composedStep(scene, {});
         for (std::size_t k = 0; k < got.count(); ++k) {
             const std::string which = "ball " + text(k % 4) + " of row " + text(k / 4) +
                                       (rebuild ? ", the grid built in every round" : "");
@@ -126,29 +126,42 @@ inline Scene crowdedBox(int count, float cellSize, std::uint64_t seed) {
     return scene;
 }
 
+/// A step of one, two and three rounds. The oracle goes from round to round by itself only from the
+/// start; a further round it does from the engine's own state before that. Else two balls that the
+/// first has pushed apart to the last bit would touch in one of the two, and not in the other.
+inline void requireRounds(Report& report, const Scene& scene, bool rebuild) {
+    Spheres before = scene.spheres;
+    moveOnHost(before, scene);
+    std::vector<bool> decided = decidedByRounding(before);
+    for (const int rounds : {1, 2, 3}) {
+        Probe probe(scene, report.device, rounds);
+        Spheres got;
+        if (!oneStepOf(report, probe, rebuild, got)) return;
+        Spheres expected = roundOnHost(before);
+        for (std::size_t k = 0; k < got.count(); ++k)
+            if (rounds == 1 && decided[k]) {
+                expected.positions[k] = got.positions[k];
+                expected.velocities[k] = got.velocities[k];
+            }
+        requireSameBalls(
+            report,
+            text(got.count()) + " balls, " + text(rounds) + (rounds == 1 ? " round" : " rounds"),
+            got, expected, 5e-4f);
+        report.guess(mistakesOf(scene, got, rounds));
+        if (report.failed()) return;
+        before = got;
+    }
+}
+
 inline void composed(Report& report) {
-    for (const int count : {1, 2, 33, 255, 256, 257, 1000})
-        for (const int rounds : {1, 2, 3}) {
-            // Wide cells bear all that moves. In narrow ones the grid must follow.
-            const bool rebuild = (count + rounds) % 2 == 0;
-            const Scene scene = crowdedBox(count, rebuild ? 1.3f : 4.0f, report.seed + 6);
-            Probe probe(scene, report.device, rounds);
-            Spheres got;
-            if (!oneStepOf(report, probe, rebuild, got)) return;
-            ComposedStep expected = composedStep(scene, {.rounds = rounds});
-            const Spheres raw = got;
-            for (std::size_t k = 0; k < got.count(); ++k)
-                if (expected.uncertain[k]) {
-                    got.positions[k] = expected.balls.positions[k];
-                    got.velocities[k] = expected.balls.velocities[k];
-                }
-            requireSameBalls(
-                report,
-                text(count) + " balls, " + text(rounds) + (rounds == 1 ? " round" : " rounds"), got,
-                expected.balls, 5e-4f);
-            report.guess(mistakesOf(scene, raw, rounds));
+    for (const int count : {1, 2, 33, 255, 256, 257, 1000}) {
+        // Wide cells bear all that moves. In narrow ones the grid must follow.
+        for (const bool rebuild : {false, true}) {
+            requireRounds(report, crowdedBox(count, rebuild ? 1.3f : 4.0f, report.seed + 6),
+                          rebuild);
             if (report.failed()) return;
         }
+    }
 }
 
 }  // namespace ballpit::check
