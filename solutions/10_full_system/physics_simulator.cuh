@@ -131,6 +131,7 @@ private:
         recordings_.clear();
     }
 
+    //@show attempt
     /// One try at a step. Recorded as a CUDA graph the second time the same launches are due (the
     /// first time scratch memory may have to be allocated).
     StepStatus attempt(bool rebuild) {
@@ -150,6 +151,7 @@ private:
         }
         return status_.wait();
     }
+    //@end
 
     /// How many steps the grid is built in every round after it once went stale: trying first
     /// without would nearly always be in vain then.
