@@ -40,7 +40,7 @@ public:
         Copies now{otherWorkingCopy(state.moving, state.moving), state.fixed};
         beginReport();
         integrate(state, now);
-        for (int round = 0; round < settings_.iterations; ++round) {
+        for (int round = 0; round < *settings_.iterations; ++round) {
             const Copies resolved{otherWorkingCopy(state.moving, now.moving), now.fixed};
             detectNaively(bodies_.view(now).positions);
             resolveCollisions(now, resolved, 1.0f);

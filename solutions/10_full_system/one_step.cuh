@@ -41,7 +41,7 @@ inline float motionShare(int round, int rounds, bool rebuild) {
 /// Enqueues all stages of a step that starts from the copies `from`, which stay as they are.
 /// Returns the copies that will hold the result. `rebuild`: the grid is built in every round.
 inline Copies enqueueStep(EngineStages& stages, Copies from, bool rebuild) {
-    const int rounds = stages.settings().iterations;
+    const int rounds = *stages.settings().iterations;
     stages.beginReport();
     Copies now = from;
     //@hole system.begin lines=3 "Integrate into a free copy, then build the grid"
