@@ -62,6 +62,9 @@ void addSimulationOptions(CLI::App& app, Options& o) {
     app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
     app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
     app.add_option("--save", o.saveFile, "CSV to write the final balls to");
+    app.add_flag("--time", o.time,
+                 "only measure a step of a pile, of " + std::to_string(o.timedCount) +
+                     " balls unless --count says otherwise");
     app.add_flag("--view", o.view,
                  "open a window (H shows its keys); it ends when you close it, or after --frames");
     app.add_flag("--ledger", o.ledger, "draw the figures on recorded frames");

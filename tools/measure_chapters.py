@@ -73,6 +73,13 @@ def broad_phase(d):
             digits(d["milliseconds"] + d["milliseconds_to_build_the_grid"])]
 
 
+def whole_step(d):
+    naive_time = d.get("milliseconds,_naive")
+    return [d["touching_pairs"], digits(naive_time) if naive_time else "",
+            digits(d["milliseconds"]),
+            digits(naive_time / d["milliseconds"], 2) if naive_time else ""]
+
+
 def response(d):
     return [digits(d[name]) for name in ("in_place:_milliseconds", "atomic:_milliseconds",
                                          "milliseconds")]
@@ -106,6 +113,9 @@ TABLES = {
            ["draw, ms", "read, ms", "convert, ms", "encode, ms", "one after the other, ms",
             "draw and read, ms", "through buffers, ms", "recorder, ms", "frames a second"],
            recording),
+    "10": ("10_full_system", {"cpu": [100, 1000, 3000, 10000, 100000, MILLION],
+                              "cuda": [100, 1000, 3000, 10000, 100000, MILLION, 8 * MILLION]},
+           ["pairs", "naive step, ms", "step with the grid, ms", "ratio"], whole_step),
 }
 
 

@@ -105,6 +105,14 @@ def run_block(chapter, arguments):
     return ["```console", f"$ {command}", *(line.rstrip() for line in output), "```"]
 
 
+def summary_block(chapter, arguments):
+    """A run of the whole system, without what differs from machine to machine."""
+    opening, command, *lines, closing = run_block(chapter, arguments)
+    lines = [re.sub(r" on \w+ \(.*\)$", "", line) for line in lines
+             if not line.startswith("  time per step")]
+    return [opening, command, *lines, closing]
+
+
 def csv_block(chapter, arguments):
     path = ROOT / "docs" / "results" / (arguments[0] if len(arguments) == 1 else "")
     if not path.is_file():
@@ -141,7 +149,7 @@ def changed_holes(chapter, mutant):
 
 
 KINDS = {"holes": holes_block, "checks": checks_block, "code": code_block, "run": run_block,
-         "csv": csv_block, "bugs": bugs_block}
+         "summary": summary_block, "csv": csv_block, "bugs": bugs_block}
 
 
 def fresh_content(chapter, block, path):

@@ -123,7 +123,7 @@ def whole_system():
     texts = {}
     for chapter in chapters.all_chapters():
         texts |= starters(chapter, {hole.id for hole in chapter.holes()})
-    program, problem = compiled("gravity_fall_mine", "10", "all_filled", texts)
+    program, problem = compiled("10_full_system", "10", "all_filled", texts)
     if problem:
         return problem
     hashes = []
