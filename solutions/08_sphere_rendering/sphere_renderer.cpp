@@ -152,6 +152,8 @@ void SphereRenderer::endFrame() {
     glPopAttrib();
 }
 
+void SphereRenderer::finish() { glFinish(); }
+
 Frame SphereRenderer::read() {
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
     rgba_.resize(4 * width * height);

@@ -59,6 +59,9 @@ public:
     /// The picture drawn last.
     Frame read();
 
+    /// Waits until it is drawn: OpenGL draws while the program goes on.
+    void finish();
+
     /// OpenGL's name of the framebuffer object that holds it, to read or to copy from.
     unsigned framebuffer() const;
 
