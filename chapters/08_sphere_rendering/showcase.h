@@ -1,6 +1,8 @@
 // What chapter 08's executable shows: pictures side by side, what they need, and what they cost.
 #pragma once
 
+#include <GL/glew.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,6 +14,7 @@
 #include "common/findings.h"
 #include "common/offscreen_context.h"
 #include "common/options.h"
+#include "common/scene.h"
 #include "common/timing.h"
 
 namespace ballpit {
@@ -113,22 +116,55 @@ inline void listForFigures(Findings& findings) {
 }
 
 /// The time of a frame drawn in each way, without reading it back: medians in ms.
+class Race {
+public:
+    Race(const Options& o, const Scene& scene)
+        : renderer_(scene.bounds, o.width, o.height), balls_(scene.spheres) {}
+
+    void run(Findings& findings) {
+        const auto draw = [&] { renderer_.draw(balls_.positions, balls_.radii, balls_.colors); };
+        time(findings, "milliseconds", BallShape::impostors, 7, draw);
+        time(findings, "points: milliseconds", BallShape::points, 7, draw);
+        const float largest = fillBuffer();
+        time(findings, "points in place: milliseconds", BallShape::points, 7,
+             [&] { renderer_.drawFromBuffer(largest); });
+        if (balls_.count() > 20'000) return;  // nets would take seconds a frame
+        time(findings, "GLU by size: milliseconds", BallShape::gluSpheres, 3, draw);
+        time(findings, "GLU 32 x 32: milliseconds", BallShape::gluSpheres, 1, draw, 32);
+    }
+
+private:
+    /// Puts the balls where a kernel would write them; returns the largest radius.
+    float fillBuffer() {
+        std::vector<Vec4> packed;
+        for (std::size_t k = 0; k < balls_.count(); ++k)
+            packed.push_back(withW(balls_.positions[k], balls_.radii[k]));
+        glBindBuffer(GL_ARRAY_BUFFER, renderer_.positionBuffer(packed.size()));
+        glBufferSubData(GL_ARRAY_BUFFER, 0, GLsizeiptr(packed.size() * sizeof(Vec4)),
+                        packed.data());
+        glBindBuffer(GL_ARRAY_BUFFER, 0);
+        renderer_.setColors(balls_.colors);
+        return *std::max_element(balls_.radii.begin(), balls_.radii.end());
+    }
+
+    template <class Draw>
+    void time(Findings& findings, const char* name, BallShape shape, int repeats, Draw draw,
+              int slices = 0) {
+        renderer_.style.shape = shape;
+        renderer_.style.slices = slices;
+        findings.add(name, medianMilliseconds(Device::cpu, repeats, [&] {
+                         draw();
+                         renderer_.finish();
+                     }));
+    }
+
+    SphereRenderer renderer_;
+    const Spheres& balls_;
+};
+
 inline void tellTimes(Findings& findings, const Options& o, const Scene& scene) {
     const OffscreenContext context;
-    SphereRenderer renderer(scene.bounds, o.width, o.height);
-    const Spheres& balls = scene.spheres;
-    const auto time = [&](const char* name, BallShape shape, int slices, int repeats) {
-        renderer.style.shape = shape;
-        renderer.style.slices = slices;
-        findings.add(name, medianMilliseconds(Device::cpu, repeats, [&] {
-                         renderer.draw(balls.positions, balls.radii, balls.colors);
-                         renderer.finish();
-                     }));
-    };
-    time("milliseconds", BallShape::impostors, 0, 7);
-    time("points: milliseconds", BallShape::points, 0, 7);
-    time("GLU by size: milliseconds", BallShape::gluSpheres, 0, 3);
-    time("GLU 32 x 32: milliseconds", BallShape::gluSpheres, 32, 1);
+    Race(o, scene).run(findings);
 }
 
 }  // namespace ballpit

@@ -83,27 +83,37 @@ std::vector<std::size_t> BallPoints::take(const Balls& balls, const Sight& sight
         else
             packed_[i] = withW(balls.positions[i], balls.radii[i]);
     }
-    reserve(balls.count());
-    positionBuffer_.fill(packed_.data(), packed_.size() * sizeof(Vec4), GL_STREAM_DRAW);
-    if (!std::ranges::equal(balls.colors, colors_)) setColors(balls.colors);
+    own_.count = balls.count();
+    own_.positionBuffer.fill(packed_.data(), packed_.size() * sizeof(Vec4), GL_STREAM_DRAW);
+    if (!std::ranges::equal(balls.colors, own_.colors)) own_.setColors(balls.colors);
+    taken_ = &own_;
     return large;
 }
 
-GLuint BallPoints::reserve(std::size_t count) {
-    if (count != count_) positionBuffer_.fill(nullptr, count * sizeof(Vec4), GL_DYNAMIC_DRAW);
-    count_ = count;
-    return positionBuffer_.name();
+void BallPoints::takeOpenBuffer() {
+    if (open_.colors.size() != open_.count)
+        throw std::invalid_argument("setColors: one colour for each ball in the buffer is needed");
+    taken_ = &open_;
 }
 
-void BallPoints::setColors(std::span<const Vec3> colors) {
-    colors_.assign(colors.begin(), colors.end());
-    colorBuffer_.fill(colors_.data(), colors_.size() * sizeof(Vec3), GL_STATIC_DRAW);
+GLuint BallPoints::reserve(std::size_t count) {
+    if (count != open_.count)
+        open_.positionBuffer.fill(nullptr, count * sizeof(Vec4), GL_DYNAMIC_DRAW);
+    open_.count = count;
+    return open_.positionBuffer.name();
+}
+
+void BallPoints::setColors(std::span<const Vec3> colors) { open_.setColors(colors); }
+
+void BallPoints::Store::setColors(std::span<const Vec3> newColors) {
+    colors.assign(newColors.begin(), newColors.end());
+    colorBuffer.fill(colors.data(), colors.size() * sizeof(Vec3), GL_STATIC_DRAW);
 }
 
 std::vector<Vec4> BallPoints::fetch() const {
-    std::vector<Vec4> balls(count_);
-    positionBuffer_.bind();
-    glGetBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(count_ * sizeof(Vec4)),
+    std::vector<Vec4> balls(open_.count);
+    open_.positionBuffer.bind();
+    glGetBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(balls.size() * sizeof(Vec4)),
                        balls.data());
     glBindBuffer(GL_ARRAY_BUFFER, 0);
     return balls;
@@ -118,13 +128,11 @@ void BallPoints::draw(const Sight& sight) const {
 }
 
 void BallPoints::drawSquares() const {
-    if (colors_.size() != count_)
-        throw std::invalid_argument("setColors: one colour for each ball in the buffer is needed");
     glEnable(GL_VERTEX_PROGRAM_POINT_SIZE);
     glEnable(GL_POINT_SPRITE);
-    positionBuffer_.attribute(0, 4, 0, sizeof(Vec4));
-    colorBuffer_.attribute(1, 3, 0, sizeof(Vec3));
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count_));
+    taken_->positionBuffer.attribute(0, 4, 0, sizeof(Vec4));
+    taken_->colorBuffer.attribute(1, 3, 0, sizeof(Vec3));
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(taken_->count));
     disableAttributes();
     glDisable(GL_POINT_SPRITE);
     glDisable(GL_VERTEX_PROGRAM_POINT_SIZE);

@@ -15,7 +15,8 @@ namespace {
 const View08 front{cameraAt({0, 0, 20})};
 constexpr int manySlices = 64;
 
-/// Nets: half a pixel of outline, and highlights that a coarse net shows a little smaller or larger.
+/// Nets: half a pixel of outline, and highlights that a coarse net shows a little smaller or
+/// larger.
 constexpr Tolerance exact{1, 4}, faceted{2, 14}, coarse{2, 56};
 
 /// One red ball aside of the middle, with all of its outline in the frame.
@@ -73,10 +74,17 @@ void placed(Report& report) {
 void nearHidesFar(Report& report) {
     const Ball08 nearer{{0.3f, 0.1f, 3}, 1, red08}, farther{{0, 0, -3}, 1.8f, blue08};
     for (const auto& balls : {std::vector{nearer, farther}, std::vector{farther, nearer}}) {
-        const std::string order = balls[0].radius == 1 ? "near first" : "far first";
-        requirePicture(report, "two balls, " + order, front, balls,
-                       drawn(front, balls, BallShape::gluSpheres, manySlices), faceted);
-        if (report.failed()) return;
+        const bool nearFirst = balls[0].radius == nearer.radius;
+        const Frame got = drawn(front, balls, BallShape::gluSpheres, manySlices);
+        requirePicture(report, nearFirst ? "two balls, near first" : "two balls, far first", front,
+                       balls, got, faceted);
+        if (!report.failed()) continue;
+        const auto middle =
+            projectToPixel(front.camera, front.width, front.height, nearer.position);
+        const std::uint8_t* pixel =
+            pixelOf(got, static_cast<int>(middle->x), static_cast<int>(middle->y));
+        return report.guess({{"no depth test: what is drawn last covers all else",
+                              [&] { return nearFirst && pixel[2] > pixel[0]; }}});
     }
 }
 

@@ -110,9 +110,28 @@ def configure():
             fail(" ".join(command), LOGS / "configure.log")
 
 
+def has(target):
+    """Whether this build knows a program: those that draw are missing in one without graphics."""
+    configure()
+    return f"build bin/{target}:" in (folder() / "build.ninja").read_text()
+
+
+def buildable(chapters):
+    """Those of these chapters that this build can build; a line says which are left out."""
+    kept = [chapter for chapter in chapters if has(f"{chapter.folder}_reference")]
+    for chapter in chapters:
+        if chapter not in kept:
+            print(f"skipped: chapter {chapter.label} needs graphics, and this build has none")
+    return kept
+
+
 def try_build(target):
     """Builds a target quietly. None, or the log of what failed."""
     configure()
+    if target != "all" and not has(target):
+        raise InputError(f"{target} needs graphics, and this build has none: install the packages "
+                         "of docs/dependencies.md (./ballpit test does that), delete "
+                         f"{folder().relative_to(ROOT)} and try again")
     if target != "all" and not executable(target).exists():
         note(f"building {target} (a minute or two the first time)")
     log = LOGS / f"build_{target}.log"
