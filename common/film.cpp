@@ -2,12 +2,15 @@
 #include "common/film.h"
 
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <optional>
 
 #include "08_sphere_rendering/sphere_renderer.h"
 #include "09_video_recording/video_recorder.h"
 #include "common/offscreen_context.h"
+#include "common/text.h"
+#include "common/timing.h"
 
 namespace ballpit {
 
@@ -15,36 +18,54 @@ namespace {
 
 constexpr int framesPerSecond = 60;
 
+/// How fast frames were made: simulated, drawn, read, encoded and written.
+void tellSpeed(const VideoRecorder& recorder, double milliseconds) {
+    std::fprintf(stderr, "recorded %d frames in %.2f s: %.1f frames a second, with %s\n",
+                 recorder.frameCount(), 1e-3 * milliseconds,
+                 1e3 * recorder.frameCount() / milliseconds, recorder.encoderName().c_str());
+}
+
 }  // namespace
 
 struct Film::Crew {
-    Crew(const Options& options, Bounds world)
-        : renderer(world, options.width, options.height), png(options.png) {
-        if (!options.out.empty()) {
-            recorder.emplace(options.out, options.width, options.height, framesPerSecond);
+    Crew(const FilmOrder& order, Bounds world)
+        : renderer(world, order.width, order.height), order(order) {
+        if (!order.video.empty()) {
+            recorder.emplace(order.video, order.width, order.height, framesPerSecond);
             if (!recorder->notice().empty()) std::cerr << "note: " << recorder->notice() << '\n';
         }
     }
+    /// Members go in the reverse order, so all of OpenGL is gone before its context.
+    ~Crew() { context.makeCurrent(); }
+    Crew(const Crew&) = delete;
 
     OffscreenContext context;
     SphereRenderer renderer;
+    TextPainter painter;
     std::optional<VideoRecorder> recorder;
-    std::string png;
-    Frame last;
+    FilmOrder order;
+    double start = 0;  // of the first frame, ms
 };
 
-Film::Film(const Options& options, Bounds world) {
-    if (!options.out.empty() || !options.png.empty())
-        crew_ = std::make_unique<Crew>(options, world);
+Film::Film(const FilmOrder& order, Bounds world) {
+    if (!order.video.empty() || !order.lastPicture.empty())
+        crew_ = std::make_unique<Crew>(order, world);
 }
 
 Film::~Film() = default;
 
+void Film::look(const Camera& camera, DrawStyle style) {
+    crew_->renderer.camera = camera;
+    crew_->renderer.style = style;
+}
+
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
-                   const std::vector<Vec3>& colors) {
+                   const std::vector<Vec3>& colors, const std::string& text) {
+    crew_->context.makeCurrent();
+    if (crew_->start == 0) crew_->start = milliseconds();
     crew_->renderer.draw(positions, radii, colors);
-    crew_->last = crew_->renderer.read();
-    if (crew_->recorder) crew_->recorder->captureFrame(crew_->last);
+    crew_->painter.draw(text, TextPainter::Place::topLeft, crew_->order.width, crew_->order.height);
+    if (crew_->recorder) crew_->recorder->captureFrame();
 }
 
 void Film::walkAround(float degrees) {
@@ -57,8 +78,13 @@ void Film::walkAround(float degrees) {
 
 void Film::finish() {
     if (!crew_) return;
-    if (crew_->recorder) crew_->recorder->release();
-    if (!crew_->png.empty()) writePng(crew_->png, crew_->last);
+    crew_->context.makeCurrent();
+    if (crew_->recorder) {
+        crew_->recorder->release();
+        tellSpeed(*crew_->recorder, milliseconds() - crew_->start);
+    }
+    if (!crew_->order.lastPicture.empty())
+        writePng(crew_->order.lastPicture, crew_->renderer.read());
 }
 
 }  // namespace ballpit

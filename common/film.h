@@ -4,30 +4,44 @@
 #include <memory>
 #include <string>
 
+#include "08_sphere_rendering/sphere_renderer.h"
 #include "common/options.h"
 #include "common/spheres.h"
 
 namespace ballpit {
 
-/// Draws and records what the options ask for (--out, --png); with neither, it does nothing and
-/// needs no OpenGL. In a build without graphics it refuses both with an InputError.
+/// What a film is to leave behind. Empty paths: nothing of that kind.
+struct FilmOrder {
+    std::string video, lastPicture;
+    int width = 1920, height = 1080;  ///< pixels
+};
+
+/// Draws and records what was ordered; if nothing was, it does nothing and needs no OpenGL. Several
+/// films may be made in turn on one thread. In a build without graphics every order is refused with
+/// an InputError.
 class Film {
 public:
-    Film(const Options& options, Bounds world);
+    Film(const FilmOrder& order, Bounds world);
+    /// The order that the options name with --out, --png, --width and --height.
+    Film(const Options& options, Bounds world)
+        : Film({options.out, options.png, options.width, options.height}, world) {}
     ~Film();
     Film(const Film&) = delete;
 
     /// True if frames are wanted.
     bool isRolling() const { return crew_ != nullptr; }
 
-    /// Takes a picture of balls in body order.
+    /// How the next frames are drawn. Until then: the whole world, as usual.
+    void look(const Camera& camera, DrawStyle style);
+
+    /// Takes a picture of balls in body order, with lines of text over it.
     void capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
-                 const std::vector<Vec3>& colors);
+                 const std::vector<Vec3>& colors, const std::string& text = {});
 
     /// Walks the camera around the world's middle axis, by `degrees` from where it stands.
     void walkAround(float degrees);
 
-    /// Completes the video, and writes the last picture where --png asked for it.
+    /// Completes the video, and writes the last picture where one was ordered.
     void finish();
 
 private:

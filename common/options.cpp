@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "common/csv.h"
 #include "common/error.h"
@@ -41,6 +42,11 @@ void addSimulationOptions(CLI::App& app, Options& o) {
     app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
     app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
     app.add_option("--save", o.saveFile, "CSV to write the final balls to");
+    app.add_flag("--view", o.view,
+                 "open a window (H shows its keys); it ends when you close it, or after --frames");
+    app.add_flag("--ledger", o.ledger, "draw the figures on recorded frames");
+    app.add_flag("--ledger-times", o.ledgerTimes, "the same, with times, which differ each time");
+    app.add_flag("--report-state", o.reportState)->group("");  // for tests
 }
 
 void addChapterOptions(CLI::App& app, Options& o) {
@@ -85,6 +91,19 @@ std::string oneLine(const CLI::App& app, const CLI::ParseError& error, int argc,
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text + " (--help shows the options)";
+}
+
+/// What follows from the options that were given, and from those that were not.
+void complete(const CLI::App& app, Options& o) {
+    const auto given = [&](const char* name) { return app[name]->count() > 0; };
+    if (o.time && !given("--count")) o.count = o.timedCount;
+    if (o.view && !given("--frames")) {
+        o.endless = true;
+        o.frames = std::numeric_limits<int>::max();
+    }
+    if (given("--width")) o.windowWidth = o.width;
+    if (given("--height")) o.windowHeight = o.height;
+    o.ledger |= o.ledgerTimes;
 }
 
 void requireInRange(const Options& o) {
@@ -139,7 +158,7 @@ int parseAndRun(CLI::App& app, int argc, char** argv, Options& options, std::str
         std::cerr << "error: " << oneLine(app, error, argc, argv) << '\n';
         return exitBadInput;
     }
-    if (options.time && app["--count"]->count() == 0) options.count = options.timedCount;
+    complete(app, options);
     options.device = device.empty()     ? defaultDevice()
                      : device == "cuda" ? Device::cuda
                                         : Device::cpu;

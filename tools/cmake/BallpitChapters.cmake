@@ -36,9 +36,15 @@ endfunction()
 
 # NN_name and check_NN from the student's piece, and both again from the solution. STUDIO: the piece
 # is a part of the studio, so the student's programs and both checks get a studio of their own.
+# GRAPHICS: a build without graphics leaves the chapter out, and says so in the file left_out.
+file(WRITE ${PROJECT_BINARY_DIR}/left_out "")
 function(ballpit_chapter folder)
-    cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO" "" "")
+    cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO;GRAPHICS" "" "")
     string(SUBSTRING ${folder} 0 2 label)
+    if(chapter_GRAPHICS AND NOT BALLPIT_WITH_GRAPHICS)
+        file(APPEND ${PROJECT_BINARY_DIR}/left_out "${label}\n")
+        return()
+    endif()
     ballpit_forward_pieces(${label})
     foreach(variant "" "_reference")
         set(main ${folder}${variant})

@@ -110,28 +110,33 @@ def configure():
             fail(" ".join(command), LOGS / "configure.log")
 
 
-def has(target):
-    """Whether this build knows a program: those that draw are missing in one without graphics."""
+def left_out():
+    """The labels of the chapters that this build leaves out because it has no graphics."""
     configure()
-    return f"build bin/{target}:" in (folder() / "build.ninja").read_text()
+    file = folder() / "left_out"
+    return set(file.read_text().split()) if file.exists() else set()
 
 
 def buildable(chapters):
     """Those of these chapters that this build can build; a line says which are left out."""
-    kept = [chapter for chapter in chapters if has(f"{chapter.folder}_reference")]
+    missing = left_out()
     for chapter in chapters:
-        if chapter not in kept:
+        if chapter.label in missing:
             print(f"skipped: chapter {chapter.label} needs graphics, and this build has none")
-    return kept
+    return [chapter for chapter in chapters if chapter.label not in missing]
+
+
+def require(chapter):
+    """InputError if this build leaves the chapter out."""
+    if chapter.label in left_out():
+        raise InputError(f"chapter {chapter.label} needs graphics, and this build has none: install "
+                         "the packages of docs/dependencies.md (./ballpit test does that), delete "
+                         f"{folder().relative_to(ROOT)} and try again")
 
 
 def try_build(target):
     """Builds a target quietly. None, or the log of what failed."""
     configure()
-    if target != "all" and not has(target):
-        raise InputError(f"{target} needs graphics, and this build has none: install the packages "
-                         "of docs/dependencies.md (./ballpit test does that), delete "
-                         f"{folder().relative_to(ROOT)} and try again")
     if target != "all" and not executable(target).exists():
         note(f"building {target} (a minute or two the first time)")
     log = LOGS / f"build_{target}.log"
