@@ -2,10 +2,10 @@
 #include "08_sphere_rendering/ball_shapes.h"
 
 #include "08_sphere_rendering/ball_shaders.h"
-#include "08_sphere_rendering/detail.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 
 namespace ballpit {
@@ -74,19 +74,35 @@ bool BallPoints::isTooLarge(float pixelRadius) const {
 }
 
 std::vector<std::size_t> BallPoints::take(const Balls& balls, const Sight& sight) {
-    std::vector<std::size_t> large;
-    packed_.assign(balls.count(), Vec4{});  // radius 0: not drawn
+    const Vec3 forward = axesOf(sight.camera).forward;
+    float nearest = std::numeric_limits<float>::infinity(), largest = 0.0f;  // depth, radius
+    packed_.assign(balls.count(), Vec4{});                                   // radius 0: not drawn
     for (std::size_t i = 0; i < balls.count(); ++i) {
         if (!balls.canBeDrawn(i)) continue;
-        if (isTooLarge(pixelRadius(sight.camera, sight.height, balls.positions[i], balls.radii[i])))
-            large.push_back(i);
-        else
-            packed_[i] = withW(balls.positions[i], balls.radii[i]);
+        packed_[i] = withW(balls.positions[i], balls.radii[i]);
+        nearest = std::min(nearest, dot(balls.positions[i] - sight.camera.eye, forward));
+        largest = std::max(largest, balls.radii[i]);
     }
+    // Only if the largest ball at the nearest place would be too large must each be asked.
+    const Vec3 nearestPlace = sight.camera.eye + nearest * forward;
+    std::vector<std::size_t> large;
+    if (largest > 0.0f && isTooLarge(sight.pixelRadius(nearestPlace, largest)))
+        large = takeOutTooLarge(sight);
     own_.count = balls.count();
     own_.positionBuffer.fill(packed_.data(), packed_.size() * sizeof(Vec4), GL_STREAM_DRAW);
     if (!std::ranges::equal(balls.colors, own_.colors)) own_.setColors(balls.colors);
     taken_ = &own_;
+    return large;
+}
+
+std::vector<std::size_t> BallPoints::takeOutTooLarge(const Sight& sight) {
+    std::vector<std::size_t> large;
+    for (std::size_t i = 0; i < packed_.size(); ++i) {
+        if (packed_[i].w <= 0.0f) continue;
+        if (!isTooLarge(sight.pixelRadius(xyz(packed_[i]), packed_[i].w))) continue;
+        large.push_back(i);
+        packed_[i] = {};
+    }
     return large;
 }
 
@@ -152,8 +168,7 @@ void BallMeshes::draw(const Balls& balls, const Sight& sight, int slices, bool w
     if (wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     for (std::size_t i = 0; i < balls.count(); ++i) {
         if (!balls.canBeDrawn(i)) continue;
-        const float pixels =
-            pixelRadius(sight.camera, sight.height, balls.positions[i], balls.radii[i]);
+        const float pixels = sight.pixelRadius(balls.positions[i], balls.radii[i]);
         const Sphere& sphere = sphereOf(slices > 0 ? slices : rounded(slicesFor(pixels)));
         drawBall(sphere, balls.positions[i], balls.radii[i], balls.colors[i]);
     }

@@ -76,6 +76,8 @@ private:
         void setColors(std::span<const Vec3> newColors);
     };
 
+    std::vector<std::size_t> takeOutTooLarge(const Sight& sight);
+
     OpenGLProgram program_;
     Store own_, open_;
     const Store* taken_ = &own_;

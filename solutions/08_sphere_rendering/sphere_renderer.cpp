@@ -2,7 +2,6 @@
 #include "08_sphere_rendering/sphere_renderer.h"
 
 #include "08_sphere_rendering/ball_shapes.h"
-#include "08_sphere_rendering/detail.h"
 #include "08_sphere_rendering/render_target.h"
 #include "08_sphere_rendering/stage.h"
 
@@ -110,7 +109,7 @@ void SphereRenderer::drawFromBuffer(float largestRadius) {
     const float reach =
         half.x * std::abs(forward.x) + half.y * std::abs(forward.y) + half.z * std::abs(forward.z);
     const Vec3 nearEnd = 0.5f * (world_.lower + world_.upper) - reach * forward;
-    if (!parts_->points.isTooLarge(pixelRadius(camera, height_, nearEnd, largestRadius))) {
+    if (!parts_->points.isTooLarge(parts_->sight->pixelRadius(nearEnd, largestRadius))) {
         parts_->quads.take({}, *parts_->sight, false);
         return drawPoints();
     }
