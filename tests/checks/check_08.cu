@@ -39,9 +39,7 @@ std::vector<Ball08> apart(std::vector<Ball08> balls) {
 void sphereList(Report& report) {
     const std::vector<Ball08> ball{{{0, 0, 0}, 2, red08}};
     requirePicture(report, "a ball of 2 m at the origin", front, ball,
-                   drawn(front, ball, BallShape::gluSpheres, manySlices), {3, 255 / 2});
-    report.guess(pictureMistakes(front, ball, drawn(front, ball, BallShape::gluSpheres, manySlices),
-                                 {3, 127}));
+                   drawn(front, ball, BallShape::gluSpheres, manySlices), faceted);
 }
 
 void placed(Report& report) {
@@ -188,10 +186,10 @@ void samePicture(Report& report) {
         }
     const double share =
         covered == 0 ? 1 : static_cast<double>(differing) / static_cast<double>(covered);
-    if (share > 0.12)
+    if (share > 0.14)
         report.fail(
             "pixels of " + text(balls.size()) + " balls, as nets and as impostors, that differ",
-            text(differing) + " of " + text(covered), "at most 12 of 100, on the outlines");
+            text(differing) + " of " + text(covered), "at most 14 of 100, on the outlines");
     char percent[16];
     std::snprintf(percent, sizeof percent, "%.1f", 100 * share);
     report.measured("nets and impostors differ in " + std::string(percent) +
@@ -220,14 +218,14 @@ int main(int argc, char** argv) {
          {"camera.perspective", "The near plane becomes -1, the far plane 1, the frame's edges 1",
           "What is twice as far must be half as large, and depths must keep their order.",
           perspectiveByHand},
-         {"detail.radius", "A ball's radius in pixels shrinks with its depth",
+         {"size.radius", "A ball's radius in pixels shrinks with its depth",
           "Detail that nobody can see costs as much as detail that everybody can.", radiusByHand},
-         {"detail.slices", "As few slices as keep the outline within half a pixel",
+         {"size.slices", "As few slices as keep the outline within half a pixel",
           "32 slices are too many for a ball of 10 pixels, and too few for one of 200.",
           slicesByTable},
-         {"sphere.list", "A sphere has the radius it was asked for, not the diameter",
+         {"net.radius", "A sphere has the radius it was asked for, not the diameter",
           "The list holds a sphere of radius 1. What scales it is the radius.", sphereList},
-         {"sphere.place", "Every ball covers the pixel of its centre, in its own colour",
+         {"net.place", "Every ball covers the pixel of its centre, in its own colour",
           "A matrix that is not put back moves every ball that comes after.", placed},
          {"depth.order", "The nearer ball hides the farther one, whichever is drawn first",
           "Bodies lie in cell order in memory. Who is in front changes with every step.",

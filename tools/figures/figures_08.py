@@ -2,7 +2,7 @@
 
 import math
 
-from figure import BLUE, FAINT, GREEN, INK, ORANGE, PAPER, RED, SKY, Figure
+from figure import BLUE, FAINT, GREEN, INK, ORANGE, PAPER, RED, Figure
 
 GREY = "#52606d"
 
@@ -26,8 +26,8 @@ def orbit(run):
     for yaw, (x, _, z) in zip((0, 30, 60, 90), level):
         figure.line(x0, y0, x0 + scale * x, y0 + scale * z, BLUE, 1)
         figure.circle(x0 + scale * x, y0 + scale * z, 6, fill=BLUE, stroke=BLUE)
-        figure.text(x0 + scale * x * 1.06 + 9, y0 + scale * z * 1.06 + 14,
-                    f"yaw {yaw}: ({x:.2f}, {z:.2f})", 13, anchor="start")
+        figure.text(x0 + scale * x * 1.06 + 9, y0 + scale * z * 1.06 + (22 if yaw == 90 else 14),
+                    f"yaw {yaw}: x {abs(x):.2f}, z {abs(z):.2f}", 13, anchor="start")
     figure.circle(x0, y0, 6, fill=INK)
     x1, y1 = 490, 250
     figure.text(x1 + 110, 30, "from the side, yaw 0", bold=True)
@@ -62,7 +62,7 @@ def outline(run):
     figure.line(*at[0], *at[1], RED, 4)
     figure.line(x, y, x + radius, y, GREY, 1)
     figure.text(x + 52, y + 18, "R", 14)
-    figure.text(x + 40, y - 26, "R cos(π/8)", 12)
+    figure.text(x + 34, y - 34, "R cos(π/8)", 12)
     figure.text(x, 306, "8 slices: the red part is the error", 13)
     left, bottom, width, height = 400, 250, 300, 200
     radii, needed = found["radii"], found["slices"]
@@ -82,7 +82,7 @@ def outline(run):
     for pixels, count in zip(radii, needed):
         across, up = place(pixels, count)
         figure.circle(across, up, 4, fill=BLUE, stroke=BLUE)
-        figure.text(across, up - 10, f"{count:g}", 12)
+        figure.text(across - 6, up - 10, f"{count:g}", 12)
     figure.text(left + width / 2, bottom + 44, "radius in pixels", 13)
     figure.text(left + width / 2, 30, "slices for half a pixel of error", bold=True)
     return figure.svg()
@@ -90,10 +90,10 @@ def outline(run):
 
 def ray(run):
     """The worked example: a ball of radius 1 m whose centre the ray passes at 0.6 m."""
-    figure = Figure(760, 270, "A ray from the eye passes a sphere's centre at 0.6 m: half the chord is "
+    figure = Figure(760, 290, "A ray from the eye passes a sphere's centre at 0.6 m: half the chord is "
                     "0.8 m, so it meets the sphere 0.8 m before its nearest point")
     scale = 100
-    eye = (60, 110)
+    eye = (60, 120)
     nearest = (eye[0] + 5 * scale, eye[1])
     center = (nearest[0], nearest[1] + 0.6 * scale)
     hit = (nearest[0] - 0.8 * scale, eye[1])
@@ -115,8 +115,8 @@ def ray(run):
     figure.text(nearest[0] - 40, nearest[1] - 8, "0.8", 13, fill=GREEN)
     figure.text(nearest[0] + 8, nearest[1] + 36, "offset 0.6", 13, anchor="start", fill=ORANGE)
     figure.text(center[0] + 8, center[1] + 22, "centre (0.6, 0, -5)", 13, anchor="start")
-    figure.text(center[0] - 52, center[1] + 4, "1", 13, fill=GREY)
-    figure.text(640, 250, "seen from above, x down the page", 12, fill=SKY)
+    figure.text(center[0] - 48, center[1] - 16, "1", 13, fill=GREY)
+    figure.text(200, 260, "seen from above, x down the page", 12, fill=GREY)
     return figure.svg()
 
 
