@@ -41,7 +41,7 @@ struct SphereRenderer::Parts {
     BallQuads quads;
     BallPoints points;
     BallMeshes meshes;
-    std::optional<RenderTarget> target;
+    std::unique_ptr<RenderTarget> target;
     std::optional<Sight> sight;  // of the picture being drawn
 };
 
@@ -55,10 +55,7 @@ SphereRenderer::~SphereRenderer() = default;
 
 void SphereRenderer::resize(int width, int height) {
     if (width == width_ && height == height_) return;
-    {
-        const RenderTarget trial(width, height);  // refused before anything is lost
-    }
-    parts_->target.emplace(width, height);
+    parts_->target = std::make_unique<RenderTarget>(width, height);  // or throws: all stays
     width_ = width;
     height_ = height;
 }
