@@ -9,6 +9,7 @@
 #include "08_sphere_rendering/sphere_renderer.h"
 #include "09_video_recording/video_recorder.h"
 #include "common/offscreen_context.h"
+#include "common/shared_vertices.h"
 #include "common/text.h"
 #include "common/timing.h"
 
@@ -39,6 +40,16 @@ struct Film::Crew {
     ~Crew() { context.makeCurrent(); }
     Crew(const Crew&) = delete;
 
+    /// One frame: the picture that `draw` draws, text over it, recorded.
+    template <class Draw>
+    void take(Draw draw, const std::string& text) {
+        context.makeCurrent();
+        if (start == 0) start = milliseconds();
+        draw();
+        painter.draw(text, TextPainter::Place::topLeft, order.width, order.height);
+        if (recorder) recorder->captureFrame();
+    }
+
     OffscreenContext context;
     SphereRenderer renderer;
     TextPainter painter;
@@ -52,7 +63,11 @@ Film::Film(const FilmOrder& order, Bounds world) {
         crew_ = std::make_unique<Crew>(order, world);
 }
 
-Film::~Film() = default;
+Film::~Film() {
+    if (!vertices_) return;
+    crew_->context.makeCurrent();
+    vertices_.reset();
+}
 
 void Film::look(const Camera& camera, DrawStyle style) {
     crew_->renderer.camera = camera;
@@ -61,11 +76,21 @@ void Film::look(const Camera& camera, DrawStyle style) {
 
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
                    const std::vector<Vec3>& colors, const std::string& text) {
+    crew_->take([&] { crew_->renderer.draw(positions, radii, colors); }, text);
+}
+
+void Film::captureFromBuffer(float largestRadius, const std::vector<Vec3>& colors,
+                             const std::string& text) {
+    const auto draw = [&] {
+        crew_->renderer.setColors(colors);
+        crew_->renderer.drawFromBuffer(largestRadius);
+    };
+    crew_->take(draw, text);
+}
+
+SphereRenderer& Film::renderer() {
     crew_->context.makeCurrent();
-    if (crew_->start == 0) crew_->start = milliseconds();
-    crew_->renderer.draw(positions, radii, colors);
-    crew_->painter.draw(text, TextPainter::Place::topLeft, crew_->order.width, crew_->order.height);
-    if (crew_->recorder) crew_->recorder->captureFrame();
+    return crew_->renderer;
 }
 
 void Film::walkAround(float degrees) {

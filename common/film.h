@@ -10,6 +10,9 @@
 
 namespace ballpit {
 
+class RigidBodySystem;
+class SharedVertices;
+
 /// What a film is to leave behind. Empty paths: nothing of that kind.
 struct FilmOrder {
     std::string video, lastPicture;
@@ -38,6 +41,11 @@ public:
     void capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
                  const std::vector<Vec3>& colors, const std::string& text = {});
 
+    /// The same of bodies on their device. So many that they are drawn as points go straight to
+    /// OpenGL, if the GPU that moves them draws them, too.
+    void capture(RigidBodySystem& bodies, const std::vector<float>& radii,
+                 const std::vector<Vec3>& colors, const std::string& text = {});
+
     /// Walks the camera around the world's middle axis, by `degrees` from where it stands.
     void walkAround(float degrees);
 
@@ -46,7 +54,14 @@ public:
 
 private:
     struct Crew;
+
+    SphereRenderer& renderer();
+    bool fillsBuffer(RigidBodySystem& bodies);
+    void captureFromBuffer(float largestRadius, const std::vector<Vec3>& colors,
+                           const std::string& text);
+
     std::unique_ptr<Crew> crew_;
+    std::unique_ptr<SharedVertices> vertices_;
 };
 
 /// Shows bodies that do not move: the picture that --png asks for, and for --out a walk around

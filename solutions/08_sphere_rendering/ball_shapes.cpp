@@ -90,7 +90,7 @@ std::vector<std::size_t> BallPoints::take(const Balls& balls, const Sight& sight
         large = takeOutTooLarge(sight);
     own_.count = balls.count();
     own_.positionBuffer.fill(packed_.data(), packed_.size() * sizeof(Vec4), GL_STREAM_DRAW);
-    if (!std::ranges::equal(balls.colors, own_.colors)) own_.setColors(balls.colors);
+    own_.setColors(balls.colors);
     taken_ = &own_;
     return large;
 }
@@ -122,6 +122,7 @@ GLuint BallPoints::reserve(std::size_t count) {
 void BallPoints::setColors(std::span<const Vec3> colors) { open_.setColors(colors); }
 
 void BallPoints::Store::setColors(std::span<const Vec3> newColors) {
+    if (std::ranges::equal(newColors, colors)) return;
     colors.assign(newColors.begin(), newColors.end());
     colorBuffer.fill(colors.data(), colors.size() * sizeof(Vec3), GL_STATIC_DRAW);
 }

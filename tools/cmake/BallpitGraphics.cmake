@@ -29,13 +29,15 @@ if(BALLPIT_WITH_GRAPHICS)
     add_library(ballpit_frame STATIC common/frame.cpp)
     target_link_libraries(ballpit_frame PUBLIC PkgConfig::FFMPEG)
     add_library(ballpit_gl STATIC
-        common/camera.cpp common/offscreen_context.cpp common/opengl.cpp common/text.cpp)
+        common/camera.cpp common/offscreen_context.cpp common/opengl.cpp common/shared_vertices.cu
+        common/text.cpp)
     target_link_libraries(ballpit_gl
         PUBLIC ballpit_frame OpenGL::OpenGL OpenGL::EGL OpenGL::GLU GLEW::GLEW GLUT::GLUT
                Freetype::Freetype)
     ballpit_target(ballpit_gl)
     set(studio_sources
         common/film.cpp
+        common/film_of_bodies.cu
         solutions/08_sphere_rendering/ball_shapes.cpp
         solutions/08_sphere_rendering/opengl_program.cpp
         solutions/08_sphere_rendering/sphere_renderer.cpp
