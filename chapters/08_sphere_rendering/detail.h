@@ -17,10 +17,10 @@ inline float pixelRadius(const Camera& camera, int height, Vec3 position, float 
     const float depth = dot(position - camera.eye, axesOf(camera).forward);
     const auto pixels = static_cast<float>(height);
     if (depth <= radius) return pixels;
-    // ---- hole detail.radius (about 2 lines): How many pixels high is the frame in metres, at that depth?
-    TODO_HOLE("detail.radius");
+    // ---- hole size.radius (about 2 lines): How many pixels high is the frame in metres, at that depth?
+    TODO_HOLE("size.radius");
     return radius;
-    // ---- end of detail.radius
+    // ---- end of size.radius
 }
 
 /// The fewest slices with which the outline is nowhere more than half a pixel wrong: the middle of
@@ -28,10 +28,10 @@ inline float pixelRadius(const Camera& camera, int height, Vec3 position, float 
 inline int slicesFor(float pixelRadius) {
     constexpr float tolerance = 0.5f;  // pixels
     if (pixelRadius <= tolerance) return 6;
-    // ---- hole detail.slices (about 3 lines): Solve the error for the number of slices; round up to even
-    TODO_HOLE("detail.slices");
+    // ---- hole size.slices (about 3 lines): Solve the error for the number of slices; round up to even
+    TODO_HOLE("size.slices");
     return 6;
-    // ---- end of detail.slices
+    // ---- end of size.slices
 }
 
 }  // namespace ballpit

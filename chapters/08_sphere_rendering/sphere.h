@@ -27,19 +27,19 @@ public:
 
     /// Draws it around the origin of the current matrix, with this radius in m.
     void draw(float radius) const {
-        // ---- hole sphere.draw (about 4 lines): Scale the unit sphere, call the list, leave no trace
-        TODO_HOLE("sphere.draw");
-        // ---- end of sphere.draw
+        // ---- hole net.draw (about 4 lines): Scale the unit sphere, call the list, leave no trace
+        TODO_HOLE("net.draw");
+        // ---- end of net.draw
     }
 
 private:
     void compile(int slices, int stacks) const {
         GLUquadric* quadric = gluNewQuadric();
-        // ---- hole sphere.compile (about 3 lines): Record a sphere of radius 1 in the list
-        TODO_HOLE("sphere.compile");
+        // ---- hole net.compile (about 3 lines): Record a sphere of radius 1 in the list
+        TODO_HOLE("net.compile");
         glNewList(list_, GL_COMPILE);
         glEndList();
-        // ---- end of sphere.compile
+        // ---- end of net.compile
         gluDeleteQuadric(quadric);
     }
 
@@ -48,9 +48,9 @@ private:
 
 /// One ball of the world: its place and colour, and the sphere that is drawn there.
 inline void drawBall(const Sphere& sphere, Vec3 position, float radius, Vec3 color) {
-    // ---- hole sphere.place (about 5 lines): Move the origin to the ball, choose the colour, draw
-    TODO_HOLE("sphere.place");
-    // ---- end of sphere.place
+    // ---- hole net.place (about 5 lines): Move the origin to the ball, choose the colour, draw
+    TODO_HOLE("net.place");
+    // ---- end of net.place
 }
 
 /// From here on a pixel keeps what is nearest to the eye, in whatever order things are drawn.

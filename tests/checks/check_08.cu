@@ -2,6 +2,7 @@
 #include <cstring>
 #include <optional>
 
+#include "08_sphere_rendering/sphere.h"
 #include "common/error.h"
 #include "common/offscreen_context.h"
 #include "tests/checks/check_08_parts.cuh"
@@ -35,8 +36,39 @@ std::vector<Ball08> apart(std::vector<Ball08> balls) {
 
 // ---- nets
 
-/// A sphere drawn directly, with no transformation of its own: list and radius.
+/// How many pixels a sphere's list covers, drawn without camera or light into a frame of 200 x 200
+/// pixels that goes from -1 to 1; after a smaller one, which must leave no trace.
+int coveredByList(float radius) {
+    SphereRenderer renderer(world08, 200, 200);
+    renderer.style.world = false;
+    renderer.draw({}, {}, {});
+    for (const GLenum matrix : {GL_PROJECTION, GL_MODELVIEW}) {
+        glMatrixMode(matrix);
+        glLoadIdentity();
+    }
+    glColor3f(1, 1, 1);
+    const Sphere sphere(64, 32);
+    sphere.draw(0.5f * radius);
+    sphere.draw(radius);
+    const Frame frame = renderer.read();
+    int count = 0;
+    for (std::size_t k = 0; k < frame.rgb.size(); k += 3) count += !isBlack(&frame.rgb[k]);
+    return count;
+}
+
 void sphereList(Report& report) {
+    constexpr float discs = 3.14159265f * 100 * 100;  // pixels of a disc of radius 1
+    for (const float radius : {0.2f, 0.4f}) {
+        const float share = static_cast<float>(coveredByList(radius)) / (discs * radius * radius);
+        if (std::abs(share - 1) > 0.04f)
+            report.fail("pixels that a sphere of radius " + text(radius) + " covers",
+                        text(share) + " times what they should be", "1 time");
+        report.guess(
+            {{"an empty picture", [&] { return share == 0; }},
+             {"the diameter taken for the radius", [&] { return std::abs(share - 4) < 0.2f; }},
+             {"half the radius, or a matrix that was not put back",
+              [&] { return std::abs(share - 0.25f) < 0.02f; }}});
+    }
     const std::vector<Ball08> ball{{{0, 0, 0}, 2, red08}};
     requirePicture(report, "a ball of 2 m at the origin", front, ball,
                    drawn(front, ball, BallShape::gluSpheres, manySlices), faceted);
