@@ -93,6 +93,15 @@ def recording(d):
         "recorder,_ms_a_frame", "recorder,_frames_a_second")]
 
 
+def rendering(d):
+    """Nets are not drawn beyond 20 000 balls."""
+    nets, by_size = (d.get(f"GLU_{kind}:_milliseconds") for kind in ("32_x_32", "by_size"))
+    squares = d["milliseconds"]
+    return [digits(nets) if nets else "", digits(by_size) if by_size else "", digits(squares),
+            digits(d["points:_milliseconds"]), digits(d["points_in_place:_milliseconds"]),
+            digits(nets / squares, 2) if nets else ""]
+
+
 TABLES = {
     "00": ("00_hello_spheres", SIZES, ["ms", "GB/s written"], hello),
     "01": ("01_naive_collision", DOUBLED, ["comparisons", "ms", "comparisons a nanosecond"], naive),
@@ -109,6 +118,10 @@ TABLES = {
             "grid and search, ms"], broad_phase),
     "07": ("07_impulse_response", {"cpu": [1000, 100000], "cuda": [1000, 100000, MILLION]},
            ["in place, ms", "atomic, ms", "gathered, ms"], response),
+    "08": ("08_sphere_rendering", {"cpu": [100, 500, 2000, 10000, 100000],
+                                   "cuda": [500, 10000, 100000, MILLION]},
+           ["GLU 32 x 32, ms", "GLU by size, ms", "squares, ms", "points, ms",
+            "points in place, ms", "GLU 32 x 32 / squares"], rendering),
     "09": ("09_video_recording", {"cpu": [500, 10000], "cuda": []},
            ["draw, ms", "read, ms", "convert, ms", "encode, ms", "one after the other, ms",
             "draw and read, ms", "through buffers, ms", "recorder, ms", "frames a second"],
@@ -126,6 +139,7 @@ def measured(program, device, count, threads):
         environment |= {"OMP_PROC_BIND": "close", "OMP_PLACES": "cores"}
     if threads:
         environment["OMP_NUM_THREADS"] = str(threads)
+        environment["LP_NUM_THREADS"] = str(threads)  # of Mesa, where it draws on the CPU
     command = [str(program), "--device", device, "--count", str(count), "--time", "--json"]
     runs = [json.loads(subprocess.run(command, env=environment, capture_output=True, text=True,
                                       check=True).stdout) for _ in range(RUNS)]

@@ -33,8 +33,8 @@ def run_all(args, jobs_of, jobs_of_all=()):
     """Runs `jobs_of(chapter)`: (name, function -> problem or ""), two at a time, and where no
     chapter is named `jobs_of_all`; prints a line for each and a summary. Exit code 1 if there was a
     problem."""
-    wanted = [checking.find_checked(word) for word in args.chapters] or [
-        chapter for chapter in chapters.all_chapters() if chapter.solutions]
+    wanted = [checking.find_checked(word) for word in args.chapters] or build.buildable(
+        [chapter for chapter in chapters.all_chapters() if chapter.solutions])
     if not wanted:
         raise ToolError("there is no chapter with pieces, so nothing is shown")
     planned = [(chapter.label, name, job) for chapter in wanted for name, job in jobs_of(chapter)]

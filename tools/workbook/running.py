@@ -52,8 +52,8 @@ def test_command(args):
 def run_command(args):
     chapter = chapters.find(args.chapter)
     target = chapter.folder + ("_reference" if args.reference else "")
+    build.require(chapter)
     if not args.reference:
-        build.configure()
         build.set_mine(chapter, checking.mine(chapter, args.mine))
     build.build([target])
     further = [option for option in args.further if option != "--"]
