@@ -39,8 +39,7 @@ inline Meeting meet(const TwoBodies& knobs, ResponseMethod method, Device device
     const Vec3d before = relativeVelocity(scene.spheres), after = relativeVelocity(end);
     const double along = (before.x * after.x + before.y * after.y + before.z * after.z) /
                          (length(before) * length(after));
-    const Vec3 moved = end.velocities[1];
-    return {length({moved.x, moved.y, moved.z}) > 1e-6 * length(before),
+    return {length(end.velocities[1]) > 1e-6 * length(before),
             degrees(std::acos(std::clamp(along, -1.0, 1.0))),
             kineticEnergyOf(end) / kineticEnergyOf(scene.spheres)};
 }

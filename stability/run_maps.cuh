@@ -47,22 +47,26 @@ inline std::vector<CellPlace> placesOf(const Map& map) {
     return places;
 }
 
-/// A line for every tenth that is done.
+/// A line for every tenth that is done, but not more than one in two seconds.
 class CellCounter {
 public:
     CellCounter(const std::string& name, std::size_t cells) : name_(name), cells_(cells) {}
     void done() {
         ++done_;
-        if (done_ * 10 / cells_ == (done_ - 1) * 10 / cells_) return;
-        const double seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-        std::fprintf(stderr, "%s: %zu of %zu cells, %.0f s\n", name_.c_str(), done_, cells_,
-                     seconds);
+        const bool tenth = done_ * 10 / cells_ != (done_ - 1) * 10 / cells_;
+        if (!tenth || seconds() - shown_ < 2) return;
+        shown_ = seconds();
+        std::fprintf(stderr, "%s: %zu of %zu cells, %.0f s\n", name_.c_str(), done_, cells_, shown_);
     }
 
 private:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
     std::string name_;
     std::size_t cells_, done_ = 0;
+    double shown_ = 0;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
