@@ -8,16 +8,16 @@ namespace ballpit {
 struct Film::Crew {};
 
 Film::Film(const Options& options, Bounds) {
-    if (!options.out.empty() || !options.png.empty())
+    if (!options.out.empty() || !options.png.empty() || !options.stills.empty())
         throw InputError(
-            "this build has no graphics, so --out and --png cannot be used: install the packages "
+            "this build has no graphics, so --out, --png and --stills cannot be used: install the "
+            "packages "
             "named in docs/dependencies.md and configure again, or leave them "
             "away");
 }
 
 Film::~Film() = default;
 void Film::capture(const std::vector<Vec3>&, const std::vector<float>&, const std::vector<Vec3>&) {}
-void Film::walkAround(float) {}
 void Film::finish() {}
 
 }  // namespace ballpit

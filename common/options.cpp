@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "common/coloring.h"
 #include "common/csv.h"
 #include "common/error.h"
 
@@ -19,17 +20,27 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
                    "cuda or cpu: the same bits on both; by default the GPU "
                    "where there is one")
         ->check(CLI::IsMember({"cuda", "cpu"}));
-    app.add_option("--count", o.count, "number of balls")->capture_default_str();
+    if (app.get_option_no_throw("--scene"))
+        app.add_option("--count", o.count, "number of balls (default: the scene's own)");
+    else
+        app.add_option("--count", o.count, "number of balls")->capture_default_str();
     app.add_option("--seed", o.seed, "seed of the scene")->capture_default_str();
     app.add_option("--out", o.out, "video to write (.mp4, .mkv, .mov or .avi)");
     app.add_option("--png", o.png, "picture of the last frame to write");
+    app.add_option("--stills", o.stills,
+                   "folder for first.png and last.png: only these two frames are drawn");
+    app.add_option("--yaw", o.shot.yaw,
+                   "camera: degrees around the world, 0 in front of it, 90 at its right");
+    app.add_option("--pitch", o.shot.pitch, "camera: degrees upwards, 0 level, 90 from above");
+    app.add_option("--zoom", o.shot.zoom, "camera: 2 is half as far away")->capture_default_str();
+    app.add_option("--orbit", o.shot.orbit, "camera: degrees a second around the world");
     app.add_option("--width", o.width, "pixels of a frame, even")->capture_default_str();
     app.add_option("--height", o.height, "pixels of a frame, even")->capture_default_str();
     app.add_flag("--json", o.json, "print what was found as JSON");
 }
 
 void addSimulationOptions(CLI::App& app, Options& o) {
-    app.add_option("--scene", o.scene, "gravity_fall, uniform, gas or pile")->capture_default_str();
+    app.add_option("--scene", o.scene, sceneNames())->capture_default_str();
     app.add_option("--frames", o.frames, "steps to simulate, one video frame each")
         ->capture_default_str();
     app.add_option("--iterations", o.iterations, "detect and resolve rounds a step")
@@ -40,6 +51,9 @@ void addSimulationOptions(CLI::App& app, Options& o) {
     app.add_option("--restitution", o.restitution, "for all balls: 0 dead stop, 1 elastic");
     app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
     app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
+    app.add_option("--color", o.color,
+                   "what colours tell: body, speed, contacts, cell or memory (their order there)")
+        ->capture_default_str();
     app.add_option("--save", o.saveFile, "CSV to write the final balls to");
 }
 
@@ -97,6 +111,12 @@ void requireInRange(const Options& o) {
     for (const int size : {o.width, o.height})
         require(size >= 16 && size <= 8192 && size % 2 == 0,
                 "frame size " + std::to_string(size) + ": an even number from 16 to 8192");
+    require(o.shot.zoom > 0.0f && std::isfinite(o.shot.zoom), "--zoom: must be above 0");
+    for (const auto& angle : {o.shot.yaw, o.shot.pitch, o.shot.orbit})
+        if (angle) require(std::isfinite(*angle), "--yaw, --pitch, --orbit: finite degrees");
+    require(o.stills.empty() || (o.out.empty() && o.png.empty()),
+            "--stills draws two frames only: leave out --out and --png, or --stills");
+    coloringNamed(o.color);
     if (o.dt)
         require(*o.dt > 0 && *o.dt <= 1,
                 "--dt " + std::to_string(*o.dt) + ": must be above 0, at most 1 s");
@@ -106,11 +126,15 @@ void requireInRange(const Options& o) {
         require(fault.empty(), "--restitution: " + fault);
     }
     if (o.device == Device::cuda) require(cudaUsable(), "--device cuda: " + whyCudaIsUnusable());
-    for (const std::string& path : {o.out, o.png, o.saveFile})
+    const std::string still = o.stills.empty() ? "" : firstStill(o.stills);
+    for (const std::string& path : {o.out, o.png, o.saveFile, still})
         if (!path.empty()) requireWritable(path);
 }
 
 }  // namespace
+
+std::string firstStill(const std::string& folder) { return folder + "/first.png"; }
+std::string lastStill(const std::string& folder) { return folder + "/last.png"; }
 
 Scene sceneFor(const Options& o) {
     // With balls of the user's own, the scene still gives the world around them.
@@ -128,6 +152,12 @@ Scene sceneFor(const Options& o) {
 
 namespace {
 
+/// The number of balls where --count does not say it.
+int usualCount(const CLI::App& app, const Options& o) {
+    if (o.time) return o.timedCount;
+    return app.get_option_no_throw("--scene") ? sceneKind(o.scene).usualCount : o.count;
+}
+
 int parseAndRun(CLI::App& app, int argc, char** argv, Options& options, std::string& device,
                 const std::function<int(const Options&)>& run) {
     addSharedOptions(app, options, device);
@@ -139,11 +169,11 @@ int parseAndRun(CLI::App& app, int argc, char** argv, Options& options, std::str
         std::cerr << "error: " << oneLine(app, error, argc, argv) << '\n';
         return exitBadInput;
     }
-    if (options.time && app["--count"]->count() == 0) options.count = options.timedCount;
     options.device = device.empty()     ? defaultDevice()
                      : device == "cuda" ? Device::cuda
                                         : Device::cpu;
     return reportingErrors([&] {
+        if (app["--count"]->count() == 0) options.count = usualCount(app, options);
         requireInRange(options);
         return run(options);
     });

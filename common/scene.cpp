@@ -181,6 +181,16 @@ Scene makePile(int count, std::uint64_t seed) {
 
 namespace {
 
+constexpr SceneKind sceneKinds[] = {{"gravity_fall", 500, makeGravityFall},
+                                    {"uniform", 500, makeUniform},
+                                    {"gas", 500, makeGas},
+                                    {"pile", 500, makePile},
+                                    {"head_on", 10, makeHeadOn},
+                                    {"static_overlap", 512, makeStaticOverlap},
+                                    {"falling_balls", 9, makeFallingBalls},
+                                    {"cradle", 6, makeCradle},
+                                    {"break", 16, makeBreak}};
+
 /// InputError unless the host has room for the balls: asked before a scene of billions is begun.
 void requireRoomFor(int count) {
     constexpr std::size_t bytesPerBall = 4 * sizeof(Vec3) + 4 * sizeof(float);
@@ -193,14 +203,24 @@ void requireRoomFor(int count) {
 
 }  // namespace
 
+const SceneKind& sceneKind(const std::string& name) {
+    for (const SceneKind& kind : sceneKinds)
+        if (name == kind.name) return kind;
+    throw InputError("scene '" + name + "': known scenes are " + sceneNames());
+}
+
+std::string sceneNames() {
+    std::string names;
+    for (const SceneKind& kind : sceneKinds)
+        names += std::string(names.empty() ? "" : ", ") + kind.name;
+    return names;
+}
+
 Scene makeScene(const std::string& name, int count, std::uint64_t seed) {
     if (count < 1) throw InputError("count " + std::to_string(count) + ": at least 1 ball");
+    const SceneKind& kind = sceneKind(name);
     requireRoomFor(count);
-    if (name == "gravity_fall") return makeGravityFall(count, seed);
-    if (name == "uniform") return makeUniform(count, seed);
-    if (name == "gas") return makeGas(count, seed);
-    if (name == "pile") return makePile(count, seed);
-    throw InputError("scene '" + name + "': known scenes are gravity_fall, uniform, gas, pile");
+    return kind.make(count, seed);
 }
 
 }  // namespace ballpit

@@ -35,6 +35,7 @@ if(BALLPIT_WITH_GRAPHICS)
     ballpit_target(ballpit_gl)
     set(studio_sources
         common/film.cpp
+        common/shot.cpp
         solutions/08_sphere_rendering/sphere_renderer.cpp
         solutions/09_video_recording/video_recorder.cpp)
 else()
