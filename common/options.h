@@ -21,10 +21,12 @@ struct Options {
     int frames = 600;
     int iterations = 2;
     std::optional<float> dt, gravity, damping, restitution, cellSize;
-    std::string out;                  ///< video to write; empty: none
-    std::string png;                  ///< picture of the last frame; empty: none
-    std::string stills;               ///< folder for the first and the last frame; empty: none
-    Shot shot;                        ///< where the camera stands, how it moves
+    std::string out;     ///< video to write; empty: none
+    std::string png;     ///< picture of the last frame; empty: none
+    std::string stills;  ///< folder for the first and the last frame; empty: none
+    Shot shot;           ///< where the camera stands, how it moves
+    /// Frames in motion are wanted, more than one picture.
+    bool isFilmed() const { return !out.empty() || !stills.empty(); }
     std::string color = "body";       ///< what a ball's colour tells (simulations)
     std::string spheresFile;          ///< CSV to start from instead of the scene's bodies
     std::string saveFile;             ///< CSV to write at the end

@@ -85,9 +85,8 @@ Scene makeBreak(int count, std::uint64_t) {
     int rows = 1;
     while (rows * (rows + 1) / 2 < count - 1) ++rows;
     const float half = 0.8f * static_cast<float>(rows) + 1.5f;
-    Scene scene = emptyRoom("break", {{-2 * half, 0, -half}, {2 * half, 1.0f, half}});
-    scene.spheres.add({-half - 1.0f, radius, 0}, {speed, 0, 0}, radius, mass, 1.0f,
-                      {0.97f, 0.97f, 0.97f});
+    Scene scene = emptyRoom("break", {{-1.25f * half, 0, -half}, {1.25f * half, 1.0f, half}});
+    scene.spheres.add({-half, radius, 0}, {speed, 0, 0}, radius, mass, 1.0f, {0.97f, 0.97f, 0.97f});
     for (int row = 0; row < rows; ++row)
         for (int k = 0; k <= row && static_cast<int>(scene.spheres.count()) < count; ++k) {
             const float across = spacing * (static_cast<float>(k) - 0.5f * static_cast<float>(row));

@@ -18,12 +18,11 @@ void showMotion(const Options& options, Bounds world, Spheres spheres,
                 const std::function<void(Spheres&, float)>& look, float stillShare) {
     Film film(options, world);
     if (!film.isRolling()) return;
-    const bool isMoving = !options.out.empty() || !options.stills.empty();
-    const int frames = isMoving ? options.frames : 1;
+    const int frames = options.isFilmed() ? options.frames : 1;
     StopRequest stop;
     for (int k = 0; k < frames && !StopRequest::received(); ++k) {
         const float share = static_cast<float>(k) / static_cast<float>(std::max(1, frames - 1));
-        look(spheres, isMoving ? share : stillShare);
+        look(spheres, options.isFilmed() ? share : stillShare);
         film.capture(spheres.positions, spheres.radii, spheres.colors);
     }
     film.finish();
