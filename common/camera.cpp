@@ -47,33 +47,6 @@ float halfHeightTangent(const Camera& camera) {
     return std::tan(camera.verticalFieldOfView * std::numbers::pi_v<float> / 360.0f);
 }
 
-Matrix4 multiply(const Matrix4& a, const Matrix4& b) {
-    Matrix4 product{};
-    for (std::size_t column = 0; column < 4; ++column)
-        for (std::size_t row = 0; row < 4; ++row)
-            for (std::size_t k = 0; k < 4; ++k)
-                product[4 * column + row] += a[4 * k + row] * b[4 * column + k];
-    return product;
-}
-
-Matrix4 lookAt(const Camera& camera) {
-    const auto [r, u, f] = axesOf(camera);
-    const Vec3 e = camera.eye;
-    return {r.x, u.x, -f.x, 0.0f, r.y,        u.y,        -f.y,      0.0f,
-            r.z, u.z, -f.z, 0.0f, -dot(r, e), -dot(u, e), dot(f, e), 1.0f};
-}
-
-Matrix4 perspective(const Camera& camera, float aspect, float nearDistance, float farDistance) {
-    const float scale = 1.0f / halfHeightTangent(camera), depth = nearDistance - farDistance;
-    Matrix4 matrix{};
-    matrix[0] = scale / aspect;
-    matrix[5] = scale;
-    matrix[10] = (farDistance + nearDistance) / depth;
-    matrix[11] = -1.0f;
-    matrix[14] = 2.0f * farDistance * nearDistance / depth;
-    return matrix;
-}
-
 Vec3 transformDirection(const Matrix4& m, Vec3 d) {
     return {m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
             m[2] * d.x + m[6] * d.y + m[10] * d.z};

@@ -33,15 +33,6 @@ CameraAxes axesOf(const Camera& camera);
 /// Tangent of half the vertical field of view.
 float halfHeightTangent(const Camera& camera);
 
-/// a * b: first b, then a.
-Matrix4 multiply(const Matrix4& a, const Matrix4& b);
-
-/// World to eye space, in which the eye is at the origin and looks along -z.
-Matrix4 lookAt(const Camera& camera);
-
-/// Eye space to clip space. `aspect` is width / height; near and far are distances in metres.
-Matrix4 perspective(const Camera& camera, float aspect, float nearDistance, float farDistance);
-
 /// Turns a direction by a matrix's upper left 3x3 part.
 Vec3 transformDirection(const Matrix4& matrix, Vec3 direction);
 

@@ -1,12 +1,15 @@
 // The film of a build with graphics.
 #include "common/film.h"
 
+#include <cstdio>
 #include <iostream>
 #include <optional>
 
 #include "08_sphere_rendering/sphere_renderer.h"
 #include "09_video_recording/video_recorder.h"
 #include "common/offscreen_context.h"
+#include "common/text.h"
+#include "common/timing.h"
 
 namespace ballpit {
 
@@ -14,59 +17,83 @@ namespace {
 
 constexpr int framesPerSecond = 60;
 
+/// How fast frames were made: simulated, drawn, read, encoded and written.
+void tellSpeed(const VideoRecorder& recorder, double milliseconds) {
+    std::fprintf(stderr, "recorded %d frames in %.2f s: %.1f frames a second, with %s\n",
+                 recorder.frameCount(), 1e-3 * milliseconds,
+                 1e3 * recorder.frameCount() / milliseconds, recorder.encoderName().c_str());
+}
+
 }  // namespace
 
 struct Film::Crew {
-    Crew(const Options& options, Bounds world)
-        : options(options), world(world), renderer(world, options.width, options.height) {
-        if (!options.out.empty()) {
-            recorder.emplace(options.out, options.width, options.height, framesPerSecond);
+    Crew(const FilmOrder& order, Bounds world)
+        : renderer(world, order.width, order.height), order(order), world(world) {
+        if (!order.video.empty()) {
+            recorder.emplace(order.video, order.width, order.height, framesPerSecond);
             if (!recorder->notice().empty()) std::cerr << "note: " << recorder->notice() << '\n';
         }
     }
+    /// Members go in the reverse order, so all of OpenGL is gone before its context.
+    ~Crew() { context.makeCurrent(); }
+    Crew(const Crew&) = delete;
 
-    /// Must a frame be drawn, and is it one that --stills asks for?
-    bool isStill() const {
-        return !options.stills.empty() && (frames == 0 || frames == options.frames - 1);
+    /// With stills, only the first and the last frame are drawn.
+    bool isWanted(int number) const {
+        return order.stills.empty() || number == 0 || number == order.frames - 1;
     }
-    bool isWanted() const { return options.stills.empty() || isStill(); }
 
-    Options options;
-    Bounds world;
-    int frames = 0;  // so far
     OffscreenContext context;
     SphereRenderer renderer;
+    TextPainter painter;
     std::optional<VideoRecorder> recorder;
-    Frame last;
+    FilmOrder order;
+    Bounds world;
+    double start = 0;       // of the first frame, ms
+    int frames = 0;         // so far
+    bool isLooked = false;  // the camera was placed by hand
 };
 
-Film::Film(const Options& options, Bounds world) {
-    if (!options.out.empty() || !options.png.empty() || !options.stills.empty())
-        crew_ = std::make_unique<Crew>(options, world);
+Film::Film(const FilmOrder& order, Bounds world) {
+    if (!order.video.empty() || !order.lastPicture.empty() || !order.stills.empty())
+        crew_ = std::make_unique<Crew>(order, world);
 }
 
 Film::~Film() = default;
 
+void Film::look(const Camera& camera, DrawStyle style) {
+    crew_->renderer.camera = camera;
+    crew_->renderer.style = style;
+    crew_->isLooked = true;
+}
+
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
-                   const std::vector<Vec3>& colors) {
+                   const std::vector<Vec3>& colors, const std::string& text) {
     Crew& crew = *crew_;
-    if (crew.isWanted()) {
-        const float seconds = static_cast<float>(crew.frames) / framesPerSecond;
-        crew.renderer.camera = cameraOf(crew.options.shot, crew.world, seconds);
-        crew.renderer.draw(positions, radii, colors);
-        crew.last = crew.renderer.read();
-        if (crew.recorder) crew.recorder->captureFrame(crew.last);
-        const std::string& stills = crew.options.stills;
-        if (crew.isStill())
-            writePng(crew.frames == 0 ? firstStill(stills) : lastStill(stills), crew.last);
-    }
-    ++crew.frames;
+    const int number = crew.frames++;
+    if (!crew.isWanted(number)) return;
+    crew.context.makeCurrent();
+    if (crew.start == 0) crew.start = milliseconds();
+    if (!crew.isLooked)
+        crew.renderer.camera =
+            cameraOf(crew.order.shot, crew.world, static_cast<float>(number) / framesPerSecond);
+    crew.renderer.draw(positions, radii, colors);
+    crew.painter.draw(text, TextPainter::Place::topLeft, crew.order.width, crew.order.height);
+    if (crew.recorder) crew.recorder->captureFrame();
+    if (!crew.order.stills.empty())
+        writePng(number == 0 ? firstStill(crew.order.stills) : lastStill(crew.order.stills),
+                 crew.renderer.read());
 }
 
 void Film::finish() {
     if (!crew_) return;
-    if (crew_->recorder) crew_->recorder->release();
-    if (!crew_->options.png.empty()) writePng(crew_->options.png, crew_->last);
+    crew_->context.makeCurrent();
+    if (crew_->recorder) {
+        crew_->recorder->release();
+        tellSpeed(*crew_->recorder, milliseconds() - crew_->start);
+    }
+    if (!crew_->order.lastPicture.empty())
+        writePng(crew_->order.lastPicture, crew_->renderer.read());
 }
 
 }  // namespace ballpit

@@ -5,29 +5,45 @@
 #include <memory>
 #include <string>
 
+#include "08_sphere_rendering/sphere_renderer.h"
 #include "common/options.h"
 #include "common/spheres.h"
 
 namespace ballpit {
 
-/// Draws and records what the options ask for (--out, --png, --stills), as their camera sees it;
-/// with none of these, it does nothing and needs no OpenGL. In a build without graphics it refuses
-/// them with an InputError.
+/// What a film is to leave behind, and its camera. Empty paths: nothing of that kind.
+struct FilmOrder {
+    std::string video, lastPicture;
+    int width = 1920, height = 1080;  ///< pixels
+    std::string stills;               ///< folder; then only two frames are drawn
+    int frames = 0;                   ///< with stills: the film's length, so which is the last
+    Shot shot;
+};
+
+/// Draws and records what was ordered; if nothing was, it does nothing and needs no OpenGL. Several
+/// films may be made in turn on one thread. In a build without graphics every order is refused with
+/// an InputError.
 class Film {
 public:
-    Film(const Options& options, Bounds world);
+    Film(const FilmOrder& order, Bounds world);
+    /// The order that the options name with --out, --png, --stills, --width, --height and those of
+    /// the camera.
+    Film(const Options& o, Bounds world)
+        : Film({o.out, o.png, o.width, o.height, o.stills, o.frames, o.shot}, world) {}
     ~Film();
     Film(const Film&) = delete;
 
     /// True if frames are wanted.
     bool isRolling() const { return crew_ != nullptr; }
 
-    /// The next frame: a picture of balls in body order. With --stills all but the first and the
-    /// last of --frames are only counted.
-    void capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
-                 const std::vector<Vec3>& colors);
+    /// How the next frames are drawn. Until then: as the order's shot says.
+    void look(const Camera& camera, DrawStyle style);
 
-    /// Completes the video, and writes the last picture where --png asked for it.
+    /// The next frame: balls in body order, with lines of text over them.
+    void capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
+                 const std::vector<Vec3>& colors, const std::string& text = {});
+
+    /// Completes the video, and writes the last picture where one was ordered.
     void finish();
 
 private:

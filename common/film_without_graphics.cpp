@@ -7,8 +7,8 @@ namespace ballpit {
 
 struct Film::Crew {};
 
-Film::Film(const Options& options, Bounds) {
-    if (!options.out.empty() || !options.png.empty() || !options.stills.empty())
+Film::Film(const FilmOrder& order, Bounds) {
+    if (!order.video.empty() || !order.lastPicture.empty() || !order.stills.empty())
         throw InputError(
             "this build has no graphics, so --out, --png and --stills cannot be used: install the "
             "packages "
@@ -17,7 +17,9 @@ Film::Film(const Options& options, Bounds) {
 }
 
 Film::~Film() = default;
-void Film::capture(const std::vector<Vec3>&, const std::vector<float>&, const std::vector<Vec3>&) {}
+void Film::look(const Camera&, DrawStyle) {}
+void Film::capture(const std::vector<Vec3>&, const std::vector<float>&, const std::vector<Vec3>&,
+                   const std::string&) {}
 void Film::finish() {}
 
 }  // namespace ballpit

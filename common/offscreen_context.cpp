@@ -2,6 +2,7 @@
 #include "common/offscreen_context.h"
 
 #include "common/error.h"
+#include "common/opengl.h"
 
 #include <GL/glew.h>
 #define EGL_NO_X11  // else eglplatform.h pulls in Xlib and its macros
@@ -54,17 +55,6 @@ EGLConfig chooseConfig(EGLDisplay display) {
     return count > 0 ? config : nullptr;
 }
 
-/// Loads the functions; says what is missing, or nothing if all is there.
-std::string loadOpenGL() {
-    const GLenum result = glewInit();
-    // Without an X display GLEW stops after loading OpenGL, before GLX, which nobody needs here.
-    if (result != GLEW_OK && result != GLEW_ERROR_NO_GLX_DISPLAY)
-        return std::string("GLEW: ") + reinterpret_cast<const char*>(glewGetErrorString(result));
-    if (!GLEW_VERSION_2_1) return "the driver's OpenGL is older than 2.1";
-    if (!GLEW_VERSION_3_0 && !GLEW_ARB_framebuffer_object) return "no framebuffer objects";
-    return {};
-}
-
 }  // namespace
 
 OffscreenContext::OffscreenContext() {
@@ -89,7 +79,7 @@ bool OffscreenContext::tryDisplay(void* display) {
         lastFailure_ = "the EGL display offers no OpenGL";
         return false;
     }
-    if (makeCurrent(config)) {
+    if (makeContext(config)) {
         const std::string missing = loadOpenGL();
         if (missing.empty()) return true;
         lastFailure_ = missing;
@@ -98,7 +88,7 @@ bool OffscreenContext::tryDisplay(void* display) {
     return false;
 }
 
-bool OffscreenContext::makeCurrent(void* config) {
+bool OffscreenContext::makeContext(void* config) {
     // Asking for no version gives the newest compatibility profile.
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
     lastFailure_ = "EGL made no OpenGL context";
@@ -114,10 +104,15 @@ bool OffscreenContext::makeCurrent(void* config) {
 /// The display stays initialized: EGL shares it between all contexts of the process.
 void OffscreenContext::destroy() {
     if (context_ == EGL_NO_CONTEXT) return;
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (eglGetCurrentContext() == context_)
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (surface_ != EGL_NO_SURFACE) eglDestroySurface(display_, surface_);
     eglDestroyContext(display_, context_);
     surface_ = context_ = nullptr;
+}
+
+void OffscreenContext::makeCurrent() {
+    if (eglGetCurrentContext() != context_) eglMakeCurrent(display_, surface_, surface_, context_);
 }
 
 std::string OffscreenContext::description() const {

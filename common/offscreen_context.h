@@ -15,12 +15,15 @@ public:
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
 
+    /// Makes its OpenGL current again, on a thread that uses several contexts in turn.
+    void makeCurrent();
+
     /// The renderer and its version, as the driver names them.
     std::string description() const;
 
 private:
     bool tryDisplay(void* display);
-    bool makeCurrent(void* config);
+    bool makeContext(void* config);
     void destroy();
 
     // EGLDisplay, EGLSurface and EGLContext are void*; so users of this header need no EGL.

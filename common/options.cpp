@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
 #include "common/coloring.h"
 #include "common/csv.h"
@@ -55,6 +56,11 @@ void addSimulationOptions(CLI::App& app, Options& o) {
                    "what colours tell: body, speed, contacts, cell or memory (their order there)")
         ->capture_default_str();
     app.add_option("--save", o.saveFile, "CSV to write the final balls to");
+    app.add_flag("--view", o.view,
+                 "open a window (H shows its keys); it ends when you close it, or after --frames");
+    app.add_flag("--ledger", o.ledger, "draw the figures on recorded frames");
+    app.add_flag("--ledger-times", o.ledgerTimes, "the same, with times, which differ each time");
+    app.add_flag("--report-state", o.reportState)->group("");  // for tests
 }
 
 void addChapterOptions(CLI::App& app, Options& o) {
@@ -99,6 +105,25 @@ std::string oneLine(const CLI::App& app, const CLI::ParseError& error, int argc,
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text + " (--help shows the options)";
+}
+
+/// The number of balls where --count does not say it.
+int usualCount(const CLI::App& app, const Options& o) {
+    if (o.time) return o.timedCount;
+    return app.get_option_no_throw("--scene") ? sceneKind(o.scene).usualCount : o.count;
+}
+
+/// What follows from the options that were given, and from those that were not.
+void complete(const CLI::App& app, Options& o) {
+    const auto given = [&](const char* name) { return app[name]->count() > 0; };
+    if (!given("--count")) o.count = usualCount(app, o);
+    if (o.view && !given("--frames")) {
+        o.endless = true;
+        o.frames = std::numeric_limits<int>::max();
+    }
+    if (given("--width")) o.windowWidth = o.width;
+    if (given("--height")) o.windowHeight = o.height;
+    o.ledger |= o.ledgerTimes;
 }
 
 void requireInRange(const Options& o) {
@@ -152,12 +177,6 @@ Scene sceneFor(const Options& o) {
 
 namespace {
 
-/// The number of balls where --count does not say it.
-int usualCount(const CLI::App& app, const Options& o) {
-    if (o.time) return o.timedCount;
-    return app.get_option_no_throw("--scene") ? sceneKind(o.scene).usualCount : o.count;
-}
-
 int parseAndRun(CLI::App& app, int argc, char** argv, Options& options, std::string& device,
                 const std::function<int(const Options&)>& run) {
     addSharedOptions(app, options, device);
@@ -173,7 +192,7 @@ int parseAndRun(CLI::App& app, int argc, char** argv, Options& options, std::str
                      : device == "cuda" ? Device::cuda
                                         : Device::cpu;
     return reportingErrors([&] {
-        if (app["--count"]->count() == 0) options.count = usualCount(app, options);
+        complete(app, options);
         requireInRange(options);
         return run(options);
     });

@@ -31,9 +31,15 @@ struct Options {
     std::string spheresFile;          ///< CSV to start from instead of the scene's bodies
     std::string saveFile;             ///< CSV to write at the end
     int width = 1920, height = 1080;  ///< of frames, pixels
-    bool json = false;                ///< the summary as JSON
-    bool time = false;                ///< measure speed (chapters)
-    int timedCount = 200'000;         ///< balls with --time, where --count is not given
+    bool ledger = false;              ///< figures drawn on frames
+    bool ledgerTimes = false;         ///< times among them
+    bool view = false;                ///< a window
+    bool endless = false;             ///< no limit to the steps: a window without --frames
+    int windowWidth = 1280, windowHeight = 720;  ///< at first, pixels
+    bool reportState = false;                    ///< the window tells tests what it shows
+    bool json = false;                           ///< the summary as JSON
+    bool time = false;                           ///< measure speed (chapters)
+    int timedCount = 200'000;                    ///< balls with --time, where --count is not given
 };
 
 /// The scene that the options describe: made by name or read from the CSV, then changed by the

@@ -14,6 +14,7 @@ struct Summary {
     Device device = Device::cpu;
     std::size_t balls = 0;
     int steps = 0, stepsAsked = 0;
+    bool interrupted = false;        ///< by Ctrl-C
     float dt = 0.0f;                 ///< s
     double millisecondsPerStep = 0;  ///< wall time, mean over the run
     std::size_t collisions = 0;      ///< touching pairs found, over all steps

@@ -116,11 +116,18 @@ def output_of(command):
 def machine(device):
     """(name in the first column, description)."""
     if device == "cuda":
-        name = output_of(["nvidia-smi", "--query-gpu=name,driver_version", "--format=csv,noheader"])
-        return name.split(",")[0], f"{name.replace(', ', ', driver ')}"
+        said = output_of(["nvidia-smi", "--query-gpu=name,driver_version", "--format=csv,noheader"])
+        name, driver = (said.splitlines() or ["no GPU, none"])[0].split(", ")
+        return name, f"driver {driver}"
     model = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
     compiler = output_of(["c++", "-dumpfullversion"])
     return "CPU", f"{model[1]}, {os.cpu_count()} cores, c++ {compiler}"
+
+
+def commit():
+    """Of this tree; BALLPIT_COMMIT says it where a copy came without its history."""
+    return (os.environ.get("BALLPIT_COMMIT") or
+            output_of(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]) or "unknown")
 
 
 def update(chapter, device, build, thread_counts):
@@ -141,12 +148,11 @@ def update(chapter, device, build, thread_counts):
     table = list(csv.reader(line for line in old if not line.startswith("#")))
     # Rows of a table with other columns would say something else here.
     others = [row for row in table[1:] if table[0] == header and row[0] != label]
-    commit = output_of(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]) or "unknown"
     with open(file, "w", newline="") as out:
         out.write(f"# {program}_reference --device DEVICE --count BALLS --time; medians of {RUNS} "
                   "runs, each the median of its repeats (tools/measure_chapters.py).\n")
         out.writelines(f"{note}\n" for note in
-                       sorted([*notes, f"# {label}: {description}, commit {commit}."]))
+                       sorted([*notes, f"# {label}: {description}, commit {commit()}."]))
         csv.writer(out, lineterminator="\n").writerows(
             [header, *sorted(rows + others, key=lambda row: row[0] != "CPU")])
 

@@ -2,6 +2,7 @@
 # Everything that only a real GPU can show: builds with CUDA, then tests, CPU and GPU hashes side by
 # side, compute-sanitizer, the bench, and the price of exactness. For machines with an NVIDIA GPU.
 #     tools/verify_gpu.sh OUT_FOLDER [build|hashes|checks|tests|sanitizer|...]
+# The part `lessons`, only on request, measures the lessons' tables in docs/results anew.
 set -u
 cd "$(dirname "$0")/.."
 out=${1:?usage: tools/verify_gpu.sh OUT_FOLDER [part ...]}
@@ -15,6 +16,16 @@ run() { "$@" || { echo "FAILED: $*"; failed=1; }; }
 
 configure() { # preset, further options
     cmake --preset "$@" -DCMAKE_CUDA_ARCHITECTURES=native ${BALLPIT_CMAKE_ARGS:-}
+}
+
+check_solution() { # program, begin of its logs' names
+    local end=""
+    timeout 300 "$1" >"$2.log" 2>&1 || end=" FAILED"
+    timeout 300 compute-sanitizer --tool memcheck --error-exitcode 9 "$1" --device cuda \
+        >"$2.memcheck.log" 2>&1 || end="$end FAILED under memcheck"
+    echo "$(basename "$1"): $(grep -c '^passed' "$2.log") passed," \
+        "$(grep -c -v -e '^passed' -e '^ ' "$2.log") other lines;" \
+        "$(grep -h 'ERROR SUMMARY' "$2.memcheck.log")$end" >"$2.summary"
 }
 
 for part in $parts; do
@@ -43,16 +54,14 @@ for part in $parts; do
         done
         rm -f "$out"/hash.*
         ;;
-    checks) # of the chapters: solutions on CPU and GPU, under memcheck too
+    checks) # of the chapters, all at the same time: solutions on CPU and GPU, under memcheck too
+        rm -f "$out"/*.summary
         for check in $bin/check_*_reference; do
-            name=$(basename "$check")
-            run "$check" >"$out/$name.log" 2>&1
-            compute-sanitizer --tool memcheck --error-exitcode 9 "$check" --device cuda \
-                >"$out/$name.memcheck.log" 2>&1 || failed=1
-            echo "$name: $(grep -c '^passed' "$out/$name.log") passed," \
-                "$(grep -c -v -e '^passed' -e '^ ' "$out/$name.log") other lines;" \
-                "$(grep -h 'ERROR SUMMARY' "$out/$name.memcheck.log")"
+            check_solution "$check" "$out/$(basename "$check")" &
         done
+        wait
+        cat "$out"/*.summary
+        ! grep -q FAILED "$out"/*.summary || failed=1
         ;;
     tests)
         ctest --test-dir build/cuda-release --output-on-failure -j 4 >"$out/tests.log" 2>&1 || failed=1
@@ -61,11 +70,19 @@ for part in $parts; do
     sanitizer)
         for tool in memcheck racecheck initcheck; do
             compute-sanitizer --tool $tool --error-exitcode 9 $bin/gravity_fall --device cuda --count 3000 \
-                --frames 40 >"$out/$tool.log" 2>&1 || failed=1
+                --frames 40 >"$out/$tool.log" 2>&1 &
+        done
+        wait
+        for tool in memcheck racecheck initcheck; do
             grep -E "ERROR SUMMARY|RACECHECK SUMMARY" "$out/$tool.log" | sed "s/^/$tool: /"
+            grep -q "SUMMARY: 0 " "$out/$tool.log" || { echo "FAILED: $tool"; failed=1; }
         done
         ;;
     bench) run $bin/ballpit_bench --device cuda --csv "$out/bench_cuda.csv" | tee "$out/bench_cuda.txt" ;;
+    lessons)
+        run python3 tools/measure_chapters.py --cuda
+        run python3 tools/profile_chapters.py --keep "$out/ncu"
+        ;;
     exactness)
         run configure cuda-release -B build/cuda-inexact -DBALLPIT_EXACT=OFF -DBUILD_TESTING=OFF >/dev/null
         run cmake --build build/cuda-inexact --target ballpit_bench >/dev/null

@@ -9,6 +9,6 @@ int main(int argc, char** argv) {
                        const Summary summary = runScene(options);
                        printSummary(summary, options.json);
                        constexpr int stoppedByUser = 130;  // what a shell expects after Ctrl-C
-                       return summary.steps < summary.stepsAsked ? stoppedByUser : int(exitOk);
+                       return summary.interrupted ? stoppedByUser : int(exitOk);
                    });
 }

@@ -1,7 +1,8 @@
-// Chapter 10: a run from scene to summary.
+// Chapter 10: a run from scene to summary, with a film of it, a window, or both.
 #pragma once
 
-#include "10_full_system/physics_simulator.cuh"
+#include "10_full_system/viewer.h"
+#include "10_full_system/window_feed.cuh"
 #include "common/csv.h"
 #include "common/film.h"
 #include "common/progress.h"
@@ -9,49 +10,102 @@
 
 namespace ballpit {
 
-/// Steps and films until the frames are done or the user stops it; fills in what was counted.
-inline void runFrames(PhysicsSimulator& simulator, Film& film, Summary& summary) {
-    RigidBodySystem& bodies = simulator.bodies();
-    const std::vector<float> radii = bodies.radii.download();
-    StopRequest stop;
-    Progress progress(summary.stepsAsked);
-    double milliseconds = 0.0;
-    while (summary.steps < summary.stepsAsked && !StopRequest::received()) {
-        const StepStats stats = simulator.step();
-        if (film.isRolling()) film.capture(bodies.positions.download(), radii, bodies.colors);
-        progress.advance(stats.frameTimeMs);
-        milliseconds += stats.frameTimeMs;
-        ++summary.steps;
-        summary.collisions += stats.collisions;
-        summary.overflows += stats.overflow > 0;
-        summary.rebuilds += stats.gridRebuilt;
-        summary.outside += stats.outside;
+/// The film that --out and --png ask for. A window beside it changes nothing in it.
+class OrderedFilm {
+public:
+    OrderedFilm(const Options& options, const Scene& scene)
+        : options_(options), film_(options, scene.bounds) {}
+
+    /// Will the next step's times be shown?
+    bool wantsTimes() const { return hasLedger() && options_.ledgerTimes; }
+
+    void stepDone(Observation& now) {
+        if (!film_.isRolling()) return;
+        film_.capture(now.positions(), now.radii(), now.colors(coloringNamed(options_.color)), textOver(now));
     }
-    summary.millisecondsPerStep = milliseconds / std::max(1, summary.steps);
+
+    void finish() { film_.finish(); }
+
+private:
+    bool hasLedger() const { return film_.isRolling() && options_.ledger; }
+
+    std::string textOver(Observation& now) {
+        if (!hasLedger()) return {};
+        now.writeInto(ledger_);
+        if (recordingMeasures(now.step(), now.count())) ledger_.figures = now.figures();
+        return ledgerText(ledger_, options_.ledgerTimes);
+    }
+
+    const Options& options_;
+    Film film_;
+    Ledger ledger_;
+};
+
+inline void count(const StepStats& stats, Summary& summary) {
+    ++summary.steps;
+    summary.collisions += stats.collisions;
+    summary.overflows += stats.overflow > 0;
+    summary.rebuilds += stats.gridRebuilt;
+    summary.outside += stats.outside;
+    summary.millisecondsPerStep +=
+        (stats.frameTimeMs - summary.millisecondsPerStep) / summary.steps;
 }
 
-/// Simulates the scene of the options, films it, and returns the summary. When a body stops being
-/// finite, the last good state is saved before NotFiniteError goes on.
+/// Steps until the frames are done or the user stops it; fills in what was counted. `link` leads to
+/// a window, or is null.
+inline void runSteps(PhysicsSimulator& simulator, const Scene& scene, const Options& options,
+                     ViewerLink* link, Summary& summary) {
+    OrderedFilm film(options, scene);
+    Observation now(simulator, scene);
+    std::optional<WindowFeed> feed;
+    std::optional<Progress> progress;
+    if (link) {
+        feed.emplace(*link, options, scene);
+        feed->show(now);
+    } else {
+        progress.emplace(summary.stepsAsked);
+    }
+    while (summary.steps < summary.stepsAsked && !StopRequest::received() &&
+           (!feed || feed->awaitTurn(now))) {
+        simulator.timeStages(film.wantsTimes() || (feed && feed->wantsTimes()));
+        const StepStats stats = simulator.step();
+        now.stepDone(stats);
+        film.stepDone(now);
+        if (feed) feed->stepDone(now);
+        if (progress) progress->advance(stats.frameTimeMs);
+        count(stats, summary);
+    }
+    progress.reset();
+    if (feed) feed->finish();
+    film.finish();
+}
+
+/// Simulates the scene of the options, shows and films it, and returns the summary. When a body
+/// stops being finite, the last good state is saved before NotFiniteError goes on.
 inline Summary runScene(const Options& options) {
     const Scene scene = sceneFor(options);
     SimulatorSettings settings = settingsFor(scene, options.device);
     settings.iterations = options.iterations;
     PhysicsSimulator simulator(settings);
     simulator.bodies().upload(scene.spheres);
-    Film film(options, scene.bounds);
 
     Summary summary{.scene = scene.name, .device = options.device, .balls = scene.spheres.count()};
     summary.stepsAsked = options.frames;
     summary.dt = scene.dt;
+    const StopRequest stop;
     try {
-        runFrames(simulator, film, summary);
+        const auto run = [&](ViewerLink* link) {
+            runSteps(simulator, scene, options, link, summary);
+        };
+        options.view ? runBesideWindow(options, scene, run) : run(nullptr);
     } catch (const NotFiniteError& error) {
         const std::string path =
             options.saveFile.empty() ? "last_good_state.csv" : options.saveFile;
         writeSpheres(path, simulator.bodies().download());
         throw NotFiniteError(std::string(error.what()) + " and saved to " + path);
     }
-    film.finish();
+    if (options.endless) summary.stepsAsked = summary.steps;
+    summary.interrupted = StopRequest::received();
 
     const Spheres final = simulator.bodies().download();
     if (!options.saveFile.empty()) writeSpheres(options.saveFile, final);

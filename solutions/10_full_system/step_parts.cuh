@@ -1,12 +1,14 @@
 // Chapter 10: what a step reports, and the small kernels that only the whole system needs.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "02_grid_hash/grid_hash.cuh"
 #include "04_reorder/reorder.cuh"
 #include "05_cell_bounds/cell_bounds.cuh"
 #include "07_impulse_response/integrate.cuh"
+#include "common/error.h"
 #include "common/stage_timer.h"
 
 namespace ballpit {
@@ -39,6 +41,22 @@ HD inline void reorderAndFindCells(int i, int count, View<const std::uint32_t> s
 /// Nothing to report yet. One thread.
 HD inline void clearStatus(int, View<StepStatus> status) {
     status[0] = {0, 0, 0, 0, 0, 0, noBody, noBody};
+}
+
+inline void requireCountable(const StepStatus& status) {
+    if (status.pairsUncountable)
+        throw std::runtime_error(
+            "more touching pairs than 32 bits can count: nearly all balls lie in one place");
+}
+
+/// NotFiniteError naming the body, the stage and the step.
+inline void requireFinite(const StepStatus& status, long step) {
+    const bool early = status.notFiniteAfterMoving != noBody;
+    const std::uint32_t body = early ? status.notFiniteAfterMoving : status.notFiniteAfterImpulse;
+    if (body == noBody) return;
+    throw NotFiniteError("body " + std::to_string(body) + " is not finite after " +
+                         (early ? "integrate" : "collisionResponse") + " of step " +
+                         std::to_string(step) + "; the state before this step is kept");
 }
 
 }  // namespace ballpit

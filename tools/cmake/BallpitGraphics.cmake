@@ -28,7 +28,8 @@ if(BALLPIT_WITH_GRAPHICS)
     message(STATUS "Graphics: yes")
     add_library(ballpit_frame STATIC common/frame.cpp)
     target_link_libraries(ballpit_frame PUBLIC PkgConfig::FFMPEG)
-    add_library(ballpit_gl STATIC common/camera.cpp common/offscreen_context.cpp)
+    add_library(ballpit_gl STATIC
+        common/camera.cpp common/offscreen_context.cpp common/opengl.cpp common/text.cpp)
     target_link_libraries(ballpit_gl
         PUBLIC ballpit_frame OpenGL::OpenGL OpenGL::EGL OpenGL::GLU GLEW::GLEW GLUT::GLUT
                Freetype::Freetype)
@@ -36,19 +37,36 @@ if(BALLPIT_WITH_GRAPHICS)
     set(studio_sources
         common/film.cpp
         common/shot.cpp
+        solutions/08_sphere_rendering/ball_shapes.cpp
+        solutions/08_sphere_rendering/opengl_program.cpp
         solutions/08_sphere_rendering/sphere_renderer.cpp
+        solutions/08_sphere_rendering/stage.cpp
+        solutions/09_video_recording/encoder_choice.cpp
+        solutions/09_video_recording/stream_copy.cpp
+        solutions/09_video_recording/video_file.cpp
         solutions/09_video_recording/video_recorder.cpp)
+    set(viewer_sources
+        solutions/10_full_system/opengl_visualizer.cpp
+        solutions/10_full_system/viewer.cpp)
 else()
     message(STATUS "Graphics: no (physics, tests of physics and the bench are built)")
     add_library(ballpit_frame STATIC common/frame_without_graphics.cpp)
     set(studio_sources common/film_without_graphics.cpp)
+    set(viewer_sources solutions/10_full_system/viewer_without_graphics.cpp)
 endif()
 ballpit_target(ballpit_frame)
 list(APPEND studio_sources common/show_spheres.cpp)
+list(APPEND viewer_sources solutions/10_full_system/ledger.cpp)
 
-# Compiles the studio into a target, with the pieces that this target sees.
+# Compiles the studio into a target, with the pieces that this target sees. VIEWER: with the window
+# and the ledger of the whole system.
 function(ballpit_studio target)
-    foreach(source ${studio_sources})
+    cmake_parse_arguments(PARSE_ARGV 1 studio "VIEWER" "" "")
+    set(sources ${studio_sources})
+    if(studio_VIEWER)
+        list(APPEND sources ${viewer_sources})
+    endif()
+    foreach(source ${sources})
         target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/${source})
     endforeach()
     target_link_libraries(${target} PUBLIC ballpit_common)
@@ -60,3 +78,7 @@ endfunction()
 add_library(ballpit_film STATIC)
 ballpit_studio(ballpit_film)
 ballpit_target(ballpit_film)
+
+add_library(ballpit_viewer STATIC ${viewer_sources})
+target_link_libraries(ballpit_viewer PUBLIC ballpit_film)
+ballpit_target(ballpit_viewer)

@@ -97,8 +97,8 @@ def growth(run):
         threads = row["threads"]
         label = row["machine"] + (f", {threads} thread{'s' * (threads != '1')}" if threads else "")
         series.setdefault(label, []).append((int(row["balls"]), float(row["ms"])))
-    figure = Figure(640, 420, "Time of the search against the number of balls on logarithmic axes: "
-                    "the lines rise with slope 2")
+    figure = Figure(640, 420, "Time of the search against the number of balls on logarithmic axes, "
+                    "and beside the lines one of slope 2")
     counts, times = zip(*(point for points in series.values() for point in points))
     plot = LogPlot(figure, 90, 30, 380, 320, counts, times)
     plot.axes("balls", "ms")
@@ -116,7 +116,7 @@ def growth(run):
 
 def grouped(value):
     """1000000 as 1 000 000."""
-    return f"{value:,g}".replace(",", " ") if value >= 1 else f"{value:g}"
+    return f"{value:,.0f}".replace(",", " ") if value >= 1 else f"{value:g}"
 
 
 class LogPlot:
