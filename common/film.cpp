@@ -30,7 +30,8 @@ struct Film::Crew {
     Crew(const FilmOrder& order, Bounds world)
         : renderer(world, order.width, order.height), order(order), world(world) {
         if (!order.video.empty()) {
-            recorder.emplace(order.video, order.width, order.height, framesPerSecond);
+            recorder.emplace(order.video, order.width, order.height, framesPerSecond,
+                             preferredEncoders(), order.compression);
             if (!recorder->notice().empty()) std::cerr << "note: " << recorder->notice() << '\n';
         }
     }

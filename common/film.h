@@ -18,6 +18,7 @@ struct FilmOrder {
     std::string stills;               ///< folder; then only two frames are drawn
     int frames = 0;                   ///< with stills: the film's length, so which is the last
     Shot shot;
+    int compression = 20;  ///< of the video, 0 exact to 51 coarse
 };
 
 /// Draws and records what was ordered; if nothing was, it does nothing and needs no OpenGL. Several
@@ -29,7 +30,8 @@ public:
     /// The order that the options name with --out, --png, --stills, --width, --height and those of
     /// the camera.
     Film(const Options& o, Bounds world)
-        : Film({o.out, o.png, o.width, o.height, o.stills, o.frames, o.shot}, world) {}
+        : Film({o.out, o.png, o.width, o.height, o.stills, o.frames, o.shot, o.compression},
+               world) {}
     ~Film();
     Film(const Film&) = delete;
 

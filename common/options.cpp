@@ -30,6 +30,9 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
     app.add_option("--png", o.png, "picture of the last frame to write");
     app.add_option("--stills", o.stills,
                    "folder for first.png and last.png: only these two frames are drawn");
+    app.add_option("--compression", o.compression,
+                   "of the video: 0 exact, 51 coarse; six more are half the size")
+        ->capture_default_str();
     app.add_option("--yaw", o.shot.yaw,
                    "camera: degrees around the world, 0 in front of it, 90 at its right");
     app.add_option("--pitch", o.shot.pitch, "camera: degrees upwards, 0 level, 90 from above");
@@ -136,6 +139,8 @@ void requireInRange(const Options& o) {
     for (const int size : {o.width, o.height})
         require(size >= 16 && size <= 8192 && size % 2 == 0,
                 "frame size " + std::to_string(size) + ": an even number from 16 to 8192");
+    require(o.compression >= 0 && o.compression <= 51,
+            "--compression " + std::to_string(o.compression) + ": 0 to 51");
     require(o.shot.zoom > 0.0f && std::isfinite(o.shot.zoom), "--zoom: must be above 0");
     for (const auto& angle : {o.shot.yaw, o.shot.pitch, o.shot.orbit})
         if (angle) require(std::isfinite(*angle), "--yaw, --pitch, --orbit: finite degrees");

@@ -26,7 +26,7 @@ endif()
 # solutions (ballpit_film), and with a student's files into the student's own programs.
 if(BALLPIT_WITH_GRAPHICS)
     message(STATUS "Graphics: yes")
-    add_library(ballpit_frame STATIC common/frame.cpp)
+    add_library(ballpit_frame STATIC common/frame.cpp common/video_player.cpp)
     target_link_libraries(ballpit_frame PUBLIC PkgConfig::FFMPEG)
     add_library(ballpit_gl STATIC
         common/camera.cpp common/offscreen_context.cpp common/opengl.cpp common/text.cpp)
