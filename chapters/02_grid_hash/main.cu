@@ -10,7 +10,7 @@ using namespace ballpit;
 
 /// In the film the balls drift from cell to cell.
 static void show(const Options& options, Spheres balls, HashedBalls& hashed) {
-    stir(balls, {0.6f, 0.6f, 0.6f}, options.seed + 1);
+    stir(balls, {1, 1, 1}, options.seed + 1);
     showMotion(options, world, balls, [&](Spheres& moving, float share) {
         if (share > 0) drift(moving, world);
         hashed.place(moving);

@@ -13,7 +13,7 @@ namespace ballpit {
 /// A closed way around the middle of the world, with two climbs.
 inline Vec3 wayThrough(Bounds world, float share) {
     const float turn = 2.0f * std::numbers::pi_v<float> * share;
-    const float reach = 0.6f * world.upper.x;
+    const float reach = 0.5f * world.upper.x;
     return {reach * std::sin(turn), 0.6f * reach * std::sin(2.0f * turn), reach * std::cos(turn)};
 }
 
@@ -22,6 +22,7 @@ inline void showSeeker(const Options& options, World world) {
     showMotion(options, world.bounds, {}, [&](Spheres& shown, float share) {
         world.spheres.positions[seeker] = wayThrough(world.bounds, share);
         Search search(options.device, world);
+        search.find();  // again, now that the list is long enough
         const std::vector<std::uint32_t> ids = search.grid.ids();
         const auto slot = std::find(ids.begin(), ids.end(), seeker) - ids.begin();
         const std::vector<Vec4> looks = search.looksFor(static_cast<int>(slot));

@@ -244,7 +244,7 @@ def frame_difference(decoded, drawn):
         detail += sum(abs(a - b) for a, b in zip(wanted, wanted[3:]))
         far_off += sum(offset > FAR_OFF for offset in offsets)
         count += len(offsets)
-    blur, share = error / max(1, detail), far_off / count
+    blur, share = error / max(count, detail), far_off / count
     if blur <= MOST_BLUR and share <= FAR_OFF_SHARE:
         return ""
     return (f"error {blur:.2f} of the picture's detail (allowed {MOST_BLUR:g}), {share:.1%} far off "
