@@ -195,12 +195,12 @@ inline StepRow timeSteps(const Scene& scene, const BenchPlan& plan, double bandw
             stageTimes[s].push_back(stats.stages[s].milliseconds);
         }
         row.contactsPerBall = 2.0 * stats.collisions / static_cast<double>(row.balls);
-        row.gridBuilds = stats.gridRebuilt ? simulator.settings().iterations : 1;
+        row.gridBuilds = stats.gridRebuilt ? *simulator.settings().iterations : 1;
     }
     for (std::size_t s = 0; s < row.stages.size(); ++s)
         row.stages[s].milliseconds = median(stageTimes[s]);
     row.bytes = bytesPerStep(row, simulator.grid().cellCount(), simulator.grid().hashBits(),
-                             plan.device, simulator.settings().iterations);
+                             plan.device, *simulator.settings().iterations);
     row.bandwidthShare = row.bytes / (1e-3 * row.stepMs) / bandwidth;
     return row;
 }

@@ -8,6 +8,7 @@
 #include "08_sphere_rendering/sphere_renderer.h"
 #include "09_video_recording/video_recorder.h"
 #include "common/offscreen_context.h"
+#include "common/shared_vertices.h"
 #include "common/text.h"
 #include "common/timing.h"
 
@@ -44,6 +45,24 @@ struct Film::Crew {
         return order.stills.empty() || number == 0 || number == order.frames - 1;
     }
 
+    /// One frame: the picture that `draw` draws, text over it, recorded.
+    template <class Draw>
+    void take(Draw draw, const std::string& text) {
+        const int number = frames++;
+        if (!isWanted(number)) return;
+        context.makeCurrent();
+        if (start == 0) start = milliseconds();
+        if (!isLooked)
+            renderer.camera =
+                cameraOf(order.shot, world, static_cast<float>(number) / framesPerSecond);
+        draw();
+        painter.draw(text, TextPainter::Place::topLeft, order.width, order.height);
+        if (recorder) recorder->captureFrame();
+        if (!order.stills.empty())
+            writePng(number == 0 ? firstStill(order.stills) : lastStill(order.stills),
+                     renderer.read());
+    }
+
     OffscreenContext context;
     SphereRenderer renderer;
     TextPainter painter;
@@ -60,7 +79,11 @@ Film::Film(const FilmOrder& order, Bounds world) {
         crew_ = std::make_unique<Crew>(order, world);
 }
 
-Film::~Film() = default;
+Film::~Film() {
+    if (!vertices_) return;
+    crew_->context.makeCurrent();
+    vertices_.reset();
+}
 
 void Film::look(const Camera& camera, DrawStyle style) {
     crew_->renderer.camera = camera;
@@ -70,20 +93,21 @@ void Film::look(const Camera& camera, DrawStyle style) {
 
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
                    const std::vector<Vec3>& colors, const std::string& text) {
-    Crew& crew = *crew_;
-    const int number = crew.frames++;
-    if (!crew.isWanted(number)) return;
-    crew.context.makeCurrent();
-    if (crew.start == 0) crew.start = milliseconds();
-    if (!crew.isLooked)
-        crew.renderer.camera =
-            cameraOf(crew.order.shot, crew.world, static_cast<float>(number) / framesPerSecond);
-    crew.renderer.draw(positions, radii, colors);
-    crew.painter.draw(text, TextPainter::Place::topLeft, crew.order.width, crew.order.height);
-    if (crew.recorder) crew.recorder->captureFrame();
-    if (!crew.order.stills.empty())
-        writePng(number == 0 ? firstStill(crew.order.stills) : lastStill(crew.order.stills),
-                 crew.renderer.read());
+    crew_->take([&] { crew_->renderer.draw(positions, radii, colors); }, text);
+}
+
+void Film::captureFromBuffer(float largestRadius, const std::vector<Vec3>& colors,
+                             const std::string& text) {
+    const auto draw = [&] {
+        crew_->renderer.setColors(colors);
+        crew_->renderer.drawFromBuffer(largestRadius);
+    };
+    crew_->take(draw, text);
+}
+
+SphereRenderer& Film::renderer() {
+    crew_->context.makeCurrent();
+    return crew_->renderer;
 }
 
 void Film::finish() {

@@ -11,6 +11,9 @@
 
 namespace ballpit {
 
+class RigidBodySystem;
+class SharedVertices;
+
 /// What a film is to leave behind, and its camera. Empty paths: nothing of that kind.
 struct FilmOrder {
     std::string video, lastPicture;
@@ -45,12 +48,24 @@ public:
     void capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
                  const std::vector<Vec3>& colors, const std::string& text = {});
 
+    /// The same of bodies on their device. So many that they are drawn as points go straight to
+    /// OpenGL, if the GPU that moves them draws them, too.
+    void capture(RigidBodySystem& bodies, const std::vector<float>& radii,
+                 const std::vector<Vec3>& colors, const std::string& text = {});
+
     /// Completes the video, and writes the last picture where one was ordered.
     void finish();
 
 private:
     struct Crew;
+
+    SphereRenderer& renderer();
+    bool fillsBuffer(RigidBodySystem& bodies);
+    void captureFromBuffer(float largestRadius, const std::vector<Vec3>& colors,
+                           const std::string& text);
+
     std::unique_ptr<Crew> crew_;
+    std::unique_ptr<SharedVertices> vertices_;
 };
 
 /// Shows bodies that do not move: the picture that --png asks for, and for a video a walk around

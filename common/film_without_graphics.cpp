@@ -6,6 +6,7 @@
 namespace ballpit {
 
 struct Film::Crew {};
+class SharedVertices {};
 
 Film::Film(const FilmOrder& order, Bounds) {
     if (!order.video.empty() || !order.lastPicture.empty() || !order.stills.empty())
@@ -19,6 +20,8 @@ Film::Film(const FilmOrder& order, Bounds) {
 Film::~Film() = default;
 void Film::look(const Camera&, DrawStyle) {}
 void Film::capture(const std::vector<Vec3>&, const std::vector<float>&, const std::vector<Vec3>&,
+                   const std::string&) {}
+void Film::capture(RigidBodySystem&, const std::vector<float>&, const std::vector<Vec3>&,
                    const std::string&) {}
 void Film::finish() {}
 

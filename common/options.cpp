@@ -43,12 +43,29 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
     app.add_flag("--json", o.json, "print what was found as JSON");
 }
 
+void addResponseOptions(CLI::App& app, Options& o) {
+    app.add_option("--response", o.response, "how collisions are resolved: " + responseNames())
+        ->capture_default_str();
+    app.add_option("--iterations", o.knobs.iterations,
+                   "detect and resolve rounds a step; with warm and small-steps: passes a substep "
+                   "(default: 2, warm 8, small-steps 1)");
+    app.add_option("--substeps", o.knobs.substeps,
+                   "moves a step, with small-steps (default: 6) or penalty (default: 16)");
+    app.add_option("--relaxation", o.knobs.relaxation,
+                   "share of each impulse that jacobi uses (default: 1)");
+    app.add_option("--restitution-threshold", o.knobs.restitutionThreshold,
+                   "m/s below which nothing bounces, with jacobi, coloured (default: 0), warm, "
+                   "small-steps (default: what falls in two substeps)");
+    app.add_option("--position-share", o.knobs.positionShare,
+                   "share of an overlap that a round of jacobi, coloured (default: 1) or warm "
+                   "(default: 0.2) takes away");
+}
+
 void addSimulationOptions(CLI::App& app, Options& o) {
     app.add_option("--scene", o.scene, sceneNames())->capture_default_str();
     app.add_option("--frames", o.frames, "steps to simulate, one video frame each")
         ->capture_default_str();
-    app.add_option("--iterations", o.iterations, "detect and resolve rounds a step")
-        ->capture_default_str();
+    addResponseOptions(app, o);
     app.add_option("--dt", o.dt, "time step in s (default: 1/60)");
     app.add_option("--gravity", o.gravity, "acceleration along y in m/s^2 (default: the scene's)");
     app.add_option("--damping", o.damping, "share of its velocity a ball loses a second");
@@ -135,7 +152,10 @@ void requireInRange(const Options& o) {
     };
     require(o.count >= 1, "--count " + std::to_string(o.count) + ": at least 1 ball");
     require(o.frames >= 1, "--frames " + std::to_string(o.frames) + ": at least 1");
-    require(o.iterations >= 1, "--iterations " + std::to_string(o.iterations) + ": at least 1");
+    if (o.knobs.iterations)
+        require(*o.knobs.iterations >= 1,
+                "--iterations " + std::to_string(*o.knobs.iterations) + ": at least 1");
+    requireSensible(responseMethod(o.response), o.knobs);
     for (const int size : {o.width, o.height})
         require(size >= 16 && size <= 8192 && size % 2 == 0,
                 "frame size " + std::to_string(size) + ": an even number from 16 to 8192");
@@ -168,7 +188,8 @@ std::string lastStill(const std::string& folder) { return folder + "/last.png"; 
 
 Scene sceneFor(const Options& o) {
     // With balls of the user's own, the scene still gives the world around them.
-    Scene scene = makeScene(o.scene, o.spheresFile.empty() ? o.count : 1, o.seed);
+    Scene scene =
+        makeScene(o.scene, o.spheresFile.empty() ? o.count : sceneKind(o.scene).usualCount, o.seed);
     if (!o.spheresFile.empty()) scene.spheres = readSpheres(o.spheresFile);
     if (o.dt) scene.dt = *o.dt;
     if (o.gravity) scene.gravity = {0, *o.gravity, 0};

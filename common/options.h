@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/device.h"
+#include "common/response_method.h"
 #include "common/scene.h"
 #include "common/shot.h"
 
@@ -19,7 +20,8 @@ struct Options {
     int count = 500;
     std::uint64_t seed = 1;
     int frames = 600;
-    int iterations = 2;
+    std::string response = "mass-split";
+    ResponseKnobs knobs;  ///< of the response
     std::optional<float> dt, gravity, damping, restitution, cellSize;
     std::string out;       ///< video to write; empty: none
     std::string png;       ///< picture of the last frame; empty: none

@@ -19,6 +19,7 @@ struct ResponseRound {
     float halfCell;     ///< m
     float motionShare;  ///< how much of (half a cell - radius) a body may move in this round
     View<StepStatus> status;
+    bool newPairs = true;  ///< false: the same list as in the call before, and bodies in its order
 };
 
 /// Tells the host what a response must not keep to itself: a body that is no longer finite, or one
@@ -32,12 +33,24 @@ HD inline void reportMotion(int i, const ResponseRound& round, Vec3 motion, Vec3
     if (lengthSquared(motion) > limit * limit) round.status[0].staleGrid = 1;
 }
 
+/// What a response wants of a step.
+enum class StepKind {
+    rounds,   ///< move once, then so many rounds of detect and resolve
+    substeps  ///< move and resolve so many times, on one list of all pairs within reach; walls are
+              ///< the response's then
+};
+
 /// A way of resolving collisions. One file an implementation, in solutions/07 and 11.
 class Response {
 public:
     virtual ~Response() = default;
+    virtual StepKind stepKind() const { return StepKind::rounds; }
+    /// The smallest restitution above 0 that it can give, or 0 if it can give any.
+    virtual float leastRestitution() const { return 0.0f; }
     /// Enqueues the kernels of one round; never waits for the device.
     virtual void resolve(const ResponseRound& round) = 0;
+    /// The last step was good and stays: what a response remembers of it counts from now on.
+    virtual void commit() {}
     /// Makes room for `capacity` pairs.
     virtual void reserve(std::size_t capacity) = 0;
     /// Device bytes in use.

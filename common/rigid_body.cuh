@@ -3,6 +3,7 @@
 // step begins with, and two to work in. A step that fails half-way therefore loses nothing.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -109,8 +110,9 @@ public:
     std::size_t count() const { return count_; }
     Device device() const { return device_; }
 
-    /// The largest radius, m.
+    /// The largest radius, m, and the smallest restitution.
     float largestRadius() const { return largestRadius_; }
+    float smallestRestitution() const { return smallestRestitution_; }
 
     /// Sets everything at once. InputError as for the fields; nothing is changed then.
     void upload(const Spheres& spheres) {
@@ -202,6 +204,7 @@ private:
         byBody.upload(values);
         const BodiesView state = view(state_);
         if (&field == &restitutions) {
+            smallestRestitution_ = *std::min_element(values.begin(), values.end());
             launch<storeScalar>(device_, intCount(), state.ids, byBody.view(), state.restitutions);
         } else if (&field == &masses) {
             launch<storeInverseW>(device_, intCount(), state.ids, byBody.view(), state.velocities);
@@ -232,7 +235,7 @@ private:
     std::vector<FixedArrays> fixed_;
     Copies state_;
     std::vector<float> massesByBody_;
-    float largestRadius_ = 0.0f;
+    float largestRadius_ = 0.0f, smallestRestitution_ = 0.0f;
     Scratch scratch_{device_, 0, "scratch"};
 };
 

@@ -9,6 +9,7 @@
 #include "common/device.h"
 #include "common/error.h"
 #include "common/random.h"
+#include "stability/catalogue.h"
 
 namespace ballpit {
 
@@ -188,7 +189,6 @@ constexpr SceneKind sceneKinds[] = {{"gravity_fall", 500, makeGravityFall},
                                     {"head_on", 10, makeHeadOn},
                                     {"static_overlap", 512, makeStaticOverlap},
                                     {"falling_balls", 9, makeFallingBalls},
-                                    {"cradle", 6, makeCradle},
                                     {"break", 16, makeBreak}};
 
 /// InputError unless the host has room for the balls: asked before a scene of billions is begun.
@@ -203,22 +203,41 @@ void requireRoomFor(int count) {
 
 }  // namespace
 
-const SceneKind& sceneKind(const std::string& name) {
+SceneKind sceneKind(const std::string& name) {
     for (const SceneKind& kind : sceneKinds)
         if (name == kind.name) return kind;
+    for (const stability::Entry& entry : stability::catalogue())
+        if (name == entry.name)
+            return {entry.name, entry.usualCount, entry.make, entry.leastCount, entry.mostCount};
     throw InputError("scene '" + name + "': known scenes are " + sceneNames());
 }
 
 std::string sceneNames() {
     std::string names;
-    for (const SceneKind& kind : sceneKinds)
-        names += std::string(names.empty() ? "" : ", ") + kind.name;
+    const auto add = [&](const char* name) {
+        names += (names.empty() ? "" : ", ") + std::string(name);
+    };
+    for (const SceneKind& kind : sceneKinds) add(kind.name);
+    for (const stability::Entry& entry : stability::catalogue()) add(entry.name);
     return names;
 }
 
-Scene makeScene(const std::string& name, int count, std::uint64_t seed) {
+namespace {
+
+void requireCount(const SceneKind& kind, int count) {
     if (count < 1) throw InputError("count " + std::to_string(count) + ": at least 1 ball");
-    const SceneKind& kind = sceneKind(name);
+    if (count >= kind.leastCount && count <= kind.mostCount) return;
+    const std::string least = std::to_string(kind.leastCount),
+                      most = std::to_string(kind.mostCount);
+    throw InputError("count " + std::to_string(count) + ": the scene " + kind.name + " has " +
+                     (least == most ? least : least + " to " + most) + " balls");
+}
+
+}  // namespace
+
+Scene makeScene(const std::string& name, int count, std::uint64_t seed) {
+    const SceneKind kind = sceneKind(name);
+    requireCount(kind, count);
     requireRoomFor(count);
     return kind.make(count, seed);
 }

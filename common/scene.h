@@ -47,9 +47,6 @@ Scene makeStaticOverlap(int count, std::uint64_t seed);
 /// Balls in a row, dropped from 6 m; restitution 0 for the first, 1 for the last.
 Scene makeFallingBalls(int count, std::uint64_t seed);
 
-/// Without gravity: an elastic ball of 2 m/s comes to a row of balls at rest that touch.
-Scene makeCradle(int count, std::uint64_t seed);
-
 /// Without gravity, on a table: an elastic ball of 6 m/s comes to a triangle of balls at rest that
 /// touch.
 Scene makeBreak(int count, std::uint64_t seed);
@@ -61,15 +58,16 @@ struct SceneKind {
     const char* name;
     int usualCount;  ///< of balls
     SceneMaker make;
+    int leastCount = 1, mostCount = 2147483647;
 };
 
 /// The scene of that name; InputError, naming all, if there is none.
-const SceneKind& sceneKind(const std::string& name);
+SceneKind sceneKind(const std::string& name);
 
 /// All names, as "a, b, c".
 std::string sceneNames();
 
-/// By name. InputError for an unknown name or a count below 1.
+/// By name. InputError for an unknown name or a count that the scene cannot have.
 Scene makeScene(const std::string& name, int count, std::uint64_t seed);
 
 /// Random places for balls of these radii inside `box` so that none overlap or touch a wall.

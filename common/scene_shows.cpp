@@ -66,18 +66,6 @@ Scene makeFallingBalls(int count, std::uint64_t) {
     return scene;
 }
 
-Scene makeCradle(int count, std::uint64_t) {
-    const float half = 0.5f * static_cast<float>(count) + 3.0f;
-    Scene scene = emptyRoom("cradle", {{-half, 0, -1.5f}, {half, 2, 1.5f}});
-    for (int k = 0; k < count; ++k) {
-        const bool comes = k == 0;
-        const float x = comes ? -half + 1.0f : 0.5f * static_cast<float>(2 * k - count);
-        scene.spheres.add({x, radius, 0}, {comes ? 2.0f : 0.0f, 0, 0}, radius, mass, 1.0f,
-                          paletteColor(static_cast<std::size_t>(k)));
-    }
-    return scene;
-}
-
 Scene makeBreak(int count, std::uint64_t) {
     // Rows of 1, 2, 3, ... balls: a triangle whose tip points at the one that comes. A hair nearer
     // than touching, so that all contacts are there from the start.

@@ -1,6 +1,4 @@
 // The scenes that show one thing each: do they? And every scene is one that the engine takes.
-#include <sstream>
-
 #include "common/motion.h"
 #include "tests/support.h"
 
@@ -8,12 +6,10 @@ using namespace ballpit;
 
 namespace {
 
-std::vector<std::string> allScenes() {
-    std::istringstream names(sceneNames());
-    std::vector<std::string> found;
-    for (std::string name; std::getline(names >> std::ws, name, ',');) found.push_back(name);
-    return found;
-}
+/// Those of common/scene.h; the catalogue of stability tests has tests of its own.
+const std::vector<std::string> ownScenes{"gravity_fall",  "uniform", "gas",
+                                         "pile",          "head_on", "static_overlap",
+                                         "falling_balls", "break"};
 
 Spheres after(const Scene& scene, int steps) {
     return test::simulate(scene, test::settingsFor(scene, Device::cpu), steps);
@@ -22,7 +18,7 @@ Spheres after(const Scene& scene, int steps) {
 }  // namespace
 
 TEST_CASE("every scene starts within its world, in cells that are large enough, and loses nobody") {
-    const std::string name = GENERATE(from_range(allScenes()));
+    const std::string name = GENERATE(from_range(ownScenes));
     const int count = GENERATE(1, 2, 3, 50);
     CAPTURE(name, count);
     const Scene scene = makeScene(name, count, 1);
@@ -35,7 +31,7 @@ TEST_CASE("every scene starts within its world, in cells that are large enough, 
 
 TEST_CASE("an unknown scene is refused, and all are named") {
     const auto message = test::messageOf<InputError>([] { makeScene("gravity", 5, 1); });
-    for (const std::string& name : allScenes()) CHECK(test::contains(message, name));
+    for (const std::string& name : ownScenes) CHECK(test::contains(message, name));
 }
 
 TEST_CASE("head_on: blue leaves with (1 + e) / 2 of red's speed, red with (1 - e) / 2") {
@@ -71,16 +67,11 @@ TEST_CASE("static_overlap: balls deep in each other come apart and never move by
     CHECK(measure(end, scene.bounds, {}, scene.dt).kineticEnergy == 0.0);
 }
 
-TEST_CASE("cradle and break: one ball comes, all others rest, and they touch each other") {
-    const auto [name, touching] =
-        GENERATE(table<std::string, std::size_t>({{"cradle", 4}, {"break", 30}}));
-    const Scene scene = makeScene(name, sceneKind(name).usualCount, 1);
-    CAPTURE(name);
+TEST_CASE("break: one ball comes, all others rest, and they touch each other") {
+    const Scene scene = makeScene("break", sceneKind("break").usualCount, 1);
     for (std::size_t k = 0; k < scene.spheres.count(); ++k)
         CHECK((length(scene.spheres.velocities[k]) > 0) == (k == 0));
-    Scene wider = scene;  // a hair: in a cradle they touch without overlapping
-    for (float& radius : wider.spheres.radii) radius *= 1.001f;
-    CHECK(test::bruteForcePairs(wider.spheres).size() == touching);
+    CHECK(test::bruteForcePairs(scene.spheres).size() == 30);
     CHECK(measure(after(scene, 200), scene.bounds, {}, scene.dt).kineticEnergy <
           1.0001 * measure(scene.spheres, scene.bounds, {}, scene.dt).kineticEnergy);
 }

@@ -85,7 +85,7 @@ std::vector<std::size_t> BallPoints::take(const Balls& balls, const Sight& sight
     }
     reserve(balls.count());
     positionBuffer_.fill(packed_.data(), packed_.size() * sizeof(Vec4), GL_STREAM_DRAW);
-    if (!std::ranges::equal(balls.colors, colors_)) setColors(balls.colors);
+    setColors(balls.colors);
     return large;
 }
 
@@ -96,6 +96,7 @@ GLuint BallPoints::reserve(std::size_t count) {
 }
 
 void BallPoints::setColors(std::span<const Vec3> colors) {
+    if (std::ranges::equal(colors, colors_)) return;
     colors_.assign(colors.begin(), colors.end());
     colorBuffer_.fill(colors_.data(), colors_.size() * sizeof(Vec3), GL_STATIC_DRAW);
 }

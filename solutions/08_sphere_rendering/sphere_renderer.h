@@ -43,13 +43,16 @@ public:
     void draw(std::span<const Vec3> positions, std::span<const float> radii,
               std::span<const Vec3> colors);
 
+    /// True if so many balls are drawn as points, so that drawFromBuffer gives draw's picture.
+    bool drawsPoints(std::size_t count) const { return shapeFor(count) == BallShape::points; }
+
     /// For balls that are on the graphics card already: the OpenGL name of a buffer with room for
     /// `count` balls, four floats each: x, y, z and radius in m. Fill it (glBufferSubData, or a
     /// CUDA kernel), then call drawFromBuffer. The name may change with the count. `draw` uses the
     /// same buffer.
     unsigned positionBuffer(std::size_t count);
 
-    /// The colours of the balls in that buffer, to be called when they change.
+    /// The colours of the balls in that buffer. Uploaded only when they have changed.
     void setColors(std::span<const Vec3> colors);
 
     /// Draws the balls in the buffer as points. No ball may be larger than `largestRadius`: if the

@@ -1,5 +1,5 @@
 // Chapter 10: all pieces together. One step: integrate; hash, sort, reorder, cell bounds; then
-// `iterations` rounds of detect and resolve.
+// `iterations` rounds of detect and resolve (or, with some responses of chapter 11, substeps).
 //
 // A step is a transaction. It reads the committed copy of the bodies and writes the other two; at
 // the end the host looks at what the device reports, once, and either commits the new copy or,
@@ -13,20 +13,23 @@
 
 #include "10_full_system/step_rounds.cuh"
 #include "10_full_system/step_stages.cuh"
+#include "11_stability/substeps.cuh"
 #include "common/launch_recording.cuh"
 
 namespace ballpit {
 
-/// The whole engine. Its stages, with the bodies and all memory, are in StepStages.
-class PhysicsSimulator : public StepStages {
+/// The whole engine. Its stages, with the bodies and all memory, are in StepStages; those of
+/// substeps in SubstepStages.
+class PhysicsSimulator : public SubstepStages {
 public:
-    using StepStages::StepStages;
+    using SubstepStages::SubstepStages;
 
     /// Advances all bodies by dt. InputError if a ball is larger than a cell or than the world;
     /// NotFiniteError naming the body, step and stage, with the state before this step kept.
     StepStats step() {
         const StepStats stats = attemptUntilComplete();
         bodies_.commit(next_);
+        response_->commit();
         ++stepsDone_;
         return stats;
     }
@@ -40,8 +43,8 @@ public:
         timer_.enable(on);
     }
 
-    /// The touching pairs of the last round of the last step or rehearsal, by body number:
-    /// first < second, sorted.
+    /// The listed pairs of the last round of the last step or rehearsal, by body number:
+    /// first < second, sorted. They touch; with substeps, they are within reach of each other.
     std::vector<Pair> lastPairs() {
         const std::uint32_t found = pairs_.starts.download().back();
         const std::vector<std::uint32_t> ids = bodies_.idsInMemoryOrder(next_);
@@ -74,16 +77,39 @@ private:
                              " m does not fit between the walls");
     }
 
+    /// A response may be unable to stop a body dead.
+    void requireRestitution() const {
+        const float least = response_->leastRestitution();
+        if (bodies_.smallestRestitution() < least)
+            throw InputError("restitution " + std::to_string(bodies_.smallestRestitution()) +
+                             ": the response " + name(settings_.response) + " needs at least " +
+                             std::to_string(least) + "; any restitution can have " +
+                             name(ResponseMethod::coloured) + " or " +
+                             name(ResponseMethod::smallSteps));
+    }
+
+    /// True if bodies move between the build of the grid and its last use.
+    bool gridCanGoStale() const {
+        return movesInSubsteps() ? settings_.substeps > 1 : settings_.iterations > 1;
+    }
+
+    Copies enqueue(Copies from, bool rebuild) {
+        return movesInSubsteps() ? enqueueSubsteps(*this, from, rebuild)
+                                 : enqueueStep(*this, from, rebuild);
+    }
+
     /// Repeats the step until nothing was cut short. Leaves the result in next_.
     StepStats attemptUntilComplete() {
         const auto start = std::chrono::steady_clock::now();
         requireBallsFit();
+        requireRestitution();
+        if (makeRoomToReach()) forgetRecordings();
         StepStats stats;
         const auto capacityBefore = static_cast<std::uint32_t>(pairs_.pairs.count());
         // With several rounds, balls move while the grid stays. If a ball of the largest radius
         // has no room to move at all, the grid must follow in any case.
-        const bool noRoom = 2.0f * bodies_.largestRadius() >= settings_.cellSize;
-        bool rebuild = settings_.iterations > 1 && (noRoom || stepsDone_ < rebuildUntil_);
+        const bool noRoom = 2.0f * bodies_.largestRadius() >= grid_.cellSize;
+        bool rebuild = gridCanGoStale() && (noRoom || stepsDone_ < rebuildUntil_);
         for (;;) {
             const StepStatus status = attempt(rebuild);
             requireCountable(status);
@@ -93,7 +119,7 @@ private:
                 continue;
             }
             requireFinite(status, stepsDone_);
-            if (status.staleGrid && settings_.iterations > 1 && !rebuild) {
+            if (status.staleGrid && gridCanGoStale() && !rebuild) {
                 rebuild = true;
                 rebuildUntil_ = stepsDone_ + rebuildSteps;
                 continue;
@@ -118,7 +144,13 @@ private:
         const std::size_t capacity = needed + needed / 4;
         pairs_.pairs.resize(capacity);
         response_->reserve(capacity);
+        forgetRecordings();
+    }
+
+    /// The arrays have moved. Larger ones may also need more scratch memory.
+    void forgetRecordings() {
         recordings_.clear();
+        scratchReady_ = false;
     }
 
     /// One try at a step. Recorded as a CUDA graph the second time the same launches are due (the
@@ -131,11 +163,11 @@ private:
             auto [place, isNew] = recordings_.try_emplace({from.moving, from.fixed, rebuild});
             RecordedStep& step = place->second;
             if (isNew)
-                step.launches.record([&] { step.result = enqueueStep(*this, from, rebuild); });
+                step.launches.record([&] { step.result = enqueue(from, rebuild); });
             step.launches.replay();
             next_ = step.result;
         } else {
-            next_ = enqueueStep(*this, from, rebuild);
+            next_ = enqueue(from, rebuild);
             scratchReady_ = true;
         }
         return status_.wait();

@@ -21,7 +21,8 @@ public:
 
     void stepDone(Observation& now) {
         if (!film_.isRolling()) return;
-        film_.capture(now.positions(), now.radii(), now.colors(coloringNamed(options_.color)), textOver(now));
+        film_.capture(now.bodies(), now.radii(), now.colors(coloringNamed(options_.color)),
+                      textOver(now));
     }
 
     void finish() { film_.finish(); }
@@ -85,7 +86,8 @@ inline void runSteps(PhysicsSimulator& simulator, const Scene& scene, const Opti
 inline Summary runScene(const Options& options) {
     const Scene scene = sceneFor(options);
     SimulatorSettings settings = settingsFor(scene, options.device);
-    settings.iterations = options.iterations;
+    settings.response = responseMethod(options.response);
+    static_cast<ResponseKnobs&>(settings) = options.knobs;
     PhysicsSimulator simulator(settings);
     simulator.bodies().upload(scene.spheres);
 

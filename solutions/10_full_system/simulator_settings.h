@@ -6,18 +6,14 @@
 
 #include "common/device.h"
 #include "common/error.h"
+#include "common/response_method.h"
 #include "common/scene.h"
 #include "common/vec3.cuh"
 
 namespace ballpit {
 
-enum class ResponseMethod {
-    massSplit,  ///< gathered impulses, the default
-    racy,       ///< the original's in-place kernel: an exhibit, not repeatable
-    atomic      ///< summed by float atomics: an exhibit, repeatable but for rounding
-};
-
-struct SimulatorSettings {
+/// The response's knobs (iterations, ...) come from common/response_method.h.
+struct SimulatorSettings : ResponseKnobs {
     int objects = 500;
     Bounds bounds{{-20, 0, -20}, {20, 40, 20}};  ///< m
     float cellSize = 2.0f;                       ///< m, at least the largest diameter
@@ -25,7 +21,6 @@ struct SimulatorSettings {
     float dt = 1.0f / 60.0f;     ///< s
     Vec3 gravity{0, -9.81f, 0};  ///< m/s^2
     float damping = 0.01f;       ///< 1/s
-    int iterations = 2;          ///< detect and resolve rounds a step
     ResponseMethod response = ResponseMethod::massSplit;
     std::size_t pairCapacity = 0;  ///< pairs to make room for at first; 0: four a body
     bool growPairs = true;         ///< on overflow: grow and redo, or fail
@@ -62,8 +57,7 @@ inline void requireSensible(const SimulatorSettings& s) {
     require(isFinite(s.gravity), "gravity: must be a finite number of m/s^2");
     require(s.damping >= 0 && s.damping * s.dt <= 1,
             "damping " + std::to_string(s.damping) + ": must lie between 0 and 1/dt");
-    require(s.iterations > 0 && s.iterations <= 1000,
-            "iterations " + std::to_string(s.iterations) + ": 1 to 1000 rounds a step");
+    requireSensible(s.response, s);
     require(s.device == Device::cpu || cudaUsable(), whyCudaIsUnusable());
 }
 

@@ -39,7 +39,7 @@ inline float motionShare(int round, int rounds, bool rebuild) {
 /// Enqueues all stages of a step that starts from the copies `from`, which stay as they are.
 /// Returns the copies that will hold the result. `rebuild`: the grid is built in every round.
 inline Copies enqueueStep(StepStages& stages, Copies from, bool rebuild) {
-    const int rounds = stages.settings().iterations;
+    const int rounds = *stages.settings().iterations;
     stages.beginReport();
     Copies now{following(from.moving, 1), from.fixed};
     stages.integrate(from, now);

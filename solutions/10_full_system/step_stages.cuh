@@ -27,7 +27,7 @@ public:
           bodies_(settings.device, static_cast<std::size_t>(count_)),
           grid_(settings.device, settings.bounds, settings.cellSize, count_),
           pairs_(settings.device, static_cast<std::size_t>(count_), settings.firstPairCapacity()),
-          response_(makeResponse(settings)),
+          response_(makeResponse(settings_)),
           status_(settings.device),
           scratch_(settings.device, 0, "scratch"),
           timer_(settings.device) {
@@ -114,10 +114,12 @@ protected:
     StageTimer timer_;
 
 private:
-    /// The settings, once they are known to make sense and to fit the device's memory.
-    static const SimulatorSettings& checked(const SimulatorSettings& s) {
+    /// The settings, once they are known to make sense and to fit the device's memory; the knobs
+    /// left empty have the response's own values.
+    static SimulatorSettings checked(SimulatorSettings s) {
         requireSensible(s);
         requireMemory(predictedBytes(s), s);
+        static_cast<ResponseKnobs&>(s) = completed(s.response, s, length(s.gravity), s.dt);
         return s;
     }
 };

@@ -29,7 +29,8 @@ if(BALLPIT_WITH_GRAPHICS)
     add_library(ballpit_frame STATIC common/frame.cpp common/video_player.cpp)
     target_link_libraries(ballpit_frame PUBLIC PkgConfig::FFMPEG)
     add_library(ballpit_gl STATIC
-        common/camera.cpp common/offscreen_context.cpp common/opengl.cpp common/text.cpp)
+        common/camera.cpp common/offscreen_context.cpp common/opengl.cpp common/shared_vertices.cu
+        common/text.cpp)
     target_link_libraries(ballpit_gl
         PUBLIC ballpit_frame OpenGL::OpenGL OpenGL::EGL OpenGL::GLU GLEW::GLEW GLUT::GLUT
                Freetype::Freetype)
@@ -37,6 +38,7 @@ if(BALLPIT_WITH_GRAPHICS)
     set(studio_sources
         common/film.cpp
         common/shot.cpp
+        common/film_of_bodies.cu
         solutions/08_sphere_rendering/ball_shapes.cpp
         solutions/08_sphere_rendering/opengl_program.cpp
         solutions/08_sphere_rendering/sphere_renderer.cpp
