@@ -32,7 +32,8 @@ static int run(const Options& o) {
 
     Findings findings("03 sort");
     findings.add("count", std::int64_t{o.count});
-    findings.add("key bits", std::int64_t{bits}), findings.add("passes", std::int64_t{passes});
+    findings.add("key bits", std::int64_t{bits});
+    findings.add("passes", std::int64_t{passes});
     const auto orderAfter = [&](int pass) {
         unsort(), radixSort(o.device, pass * digitBits, grid.hashes, grid.indices, space);
         return grid.indices.download();
@@ -49,9 +50,7 @@ static int run(const Options& o) {
         findings.add("library milliseconds",
                      timeOf([&] { sortByHash(o.device, o.count, grid, scratch); }));
     findings.print(o.json);
-    const std::size_t eighth = sorted.size() / 8 + 1;  // of the list gets a colour
-    for (std::size_t k = 0; k < sorted.size(); ++k)
-        spheres.colors[sorted[k] % sorted.size()] = paletteColor(k / eighth);
+    colorEighths(spheres, sorted);
     o.isFilmed() ? showPasses(o, hashes, passes, orderAfter) : showSpheres(o, world, spheres);
     return exitOk;
 }

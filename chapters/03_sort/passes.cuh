@@ -13,6 +13,13 @@
 
 namespace ballpit {
 
+/// A colour for each eighth of the list.
+inline void colorEighths(Spheres& spheres, const std::vector<std::uint32_t>& sorted) {
+    const std::size_t eighth = sorted.size() / 8 + 1;
+    for (std::size_t k = 0; k < sorted.size(); ++k)
+        spheres.colors[sorted[k] % sorted.size()] = paletteColor(k / eighth);
+}
+
 /// A table with a place for each slot, row by row from the back.
 struct Table {
     int columns, rows;
