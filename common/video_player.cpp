@@ -78,7 +78,8 @@ Video factsOf(const AVStream& stream, const AVCodecContext& decoder) {
 
 }  // namespace
 
-Video watchVideo(const std::string& path, const std::function<void(const Frame&)>& visit) {
+Video watchVideo(const std::string& path, const std::function<void(const Frame&)>& visit,
+                 const std::function<bool(std::size_t)>& wanted) {
     const Input input = openInput(path);
     const AVStream& stream = *input->streams[0];
     const auto decoder = openDecoder(stream);
@@ -97,7 +98,7 @@ Video watchVideo(const std::string& path, const std::function<void(const Frame&)
             video.colorRange = orEmpty(av_color_range_name(picture->color_range));
             video.times.push_back(static_cast<double>(picture->best_effort_timestamp - start) *
                                   av_q2d(stream.time_base));
-            visit(asFrame(*picture));
+            if (wanted(video.times.size() - 1)) visit(asFrame(*picture));
         }
     }
     return video;

@@ -17,10 +17,12 @@ struct Video {
     std::vector<double> times;                ///< of each frame that was decoded, in s
 };
 
-/// Decodes all frames and gives each to `visit`, in the order in which they are shown. Throws
-/// std::runtime_error if no player could open the file. A file that ends too early plays up to
-/// there.
-Video watchVideo(const std::string& path, const std::function<void(const Frame&)>& visit);
+/// Decodes all frames and gives each to `visit`, in the order in which they are shown; of those
+/// whose number is not `wanted` only the time is noted, which is faster. Throws std::runtime_error
+/// if no player could open the file. A file that ends too early plays up to there.
+Video watchVideo(
+    const std::string& path, const std::function<void(const Frame&)>& visit,
+    const std::function<bool(std::size_t)>& wanted = [](std::size_t) { return true; });
 
 /// Keeps the frames.
 struct PlayedVideo : Video {

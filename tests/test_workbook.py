@@ -73,7 +73,7 @@ class Running(Workbook):
                               "--reference")
         self.assertEqual(result.stdout.split(), [
             "program", "01_first_reference", "--count", "5", "--out",
-            f"{self.root}/videos/01_first.mp4", "--png", "a.png"])
+            f"{self.root}/build/01_first.mp4", "--png", "a.png"])
         self.assertEqual(self.ballpit("run", "01", "--", "--help").stdout.split()[1:],
                          ["01_first", "--help"])
 

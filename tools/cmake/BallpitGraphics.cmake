@@ -38,6 +38,7 @@ if(BALLPIT_WITH_GRAPHICS)
     ballpit_target(ballpit_gl)
     set(studio_sources
         common/film.cpp
+        common/shot.cpp
         common/film_of_bodies.cu
         solutions/08_sphere_rendering/ball_shapes.cpp
         solutions/08_sphere_rendering/opengl_program.cpp

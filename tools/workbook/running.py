@@ -21,7 +21,7 @@ def register(commands):
     run.add_argument("--mine", metavar="LIST", default="",
                      help="chapters whose pieces are yours too, as 2,3 or all")
     run.add_argument("--video", nargs="?", const="", metavar="FILE",
-                     help="record a video (videos/NN_name.mp4)")
+                     help="record a video (build/NN_name.mp4)")
     run.add_argument("--png", nargs="?", const="", metavar="FILE",
                      help="save the last picture (build/NN_name.png)")
     run.epilog = "Further options go to the program: add `-- --help` to see them."
@@ -58,7 +58,7 @@ def run_command(args):
     build.build([target])
     further = [option for option in args.further if option != "--"]
     if args.video is not None:
-        further += ["--out", args.video or str(ROOT / "videos" / f"{chapter.folder}.mp4")]
+        further += ["--out", args.video or str(ROOT / "build" / f"{chapter.folder}.mp4")]
     if args.png is not None:
         further += ["--png", args.png or str(ROOT / "build" / f"{chapter.folder}.png")]
     become(build.executable(target), further)
