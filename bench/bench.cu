@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "bench/bench.cuh"
+#include "bench/frames.h"
 #include "common/error.h"
 
 using namespace ballpit;
@@ -22,6 +23,8 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::Range(3, 10000));
     app.add_option("--csv", plan.csv, "file to write the table to as well");
+    bool frames = false;
+    app.add_flag("--frames", frames, "time steps that are drawn as well, offscreen at 1920x1080");
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {
@@ -32,7 +35,10 @@ int main(int argc, char** argv) {
     }
     plan.device = device == "cuda" ? Device::cuda : Device::cpu;
     return reportingErrors([&] {
-        runBench(plan);
+        if (frames)
+            runFramesBench({plan.device, plan.counts, plan.repeats, plan.csv});
+        else
+            runBench(plan);
         return int(exitOk);
     });
 }

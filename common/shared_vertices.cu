@@ -92,9 +92,10 @@ struct SharedVertices::Registration {
 
 #endif
 
-SharedVertices::SharedVertices(RigidBodySystem& bodies, unsigned buffer)
+SharedVertices::SharedVertices(RigidBodySystem& bodies, unsigned buffer, bool mayShare)
     : bodies_(bodies), buffer_(buffer) {
-    if (bodies.device() == Device::cuda) registration_ = Registration::make(buffer, notice_);
+    if (mayShare && bodies.device() == Device::cuda)
+        registration_ = Registration::make(buffer, notice_);
     if (!notice_.empty()) notice_ += "; positions go through main memory, with the same picture";
 }
 

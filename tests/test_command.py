@@ -71,6 +71,17 @@ class BadOptions(Folder):
             with self.subTest(option=option, value=value):
                 self.refuses([word], option, value)
 
+    def test_wrong_cameras_colours_and_stills(self):
+        for words, *arguments in [
+                (["--zoom", "above 0"], "--zoom", "0"), (["finite"], "--orbit", "inf"),
+                (["--compression", "0 to 51"], "--compression", "52"),
+                (["colour by 'hue'", "body, speed"], "--color", "hue"),
+                (["scene 'snow'", "head_on"], "--scene", "snow"),
+                (["--stills", "leave out"], "--stills", ".", "--out", "a.mp4"),
+                (["nowhere"], "--stills", "nowhere")]:
+            with self.subTest(arguments=arguments):
+                self.refuses(words, *arguments)
+
     def test_not_a_number(self):
         self.refuses(["--count"], "--count", "many")
 
@@ -114,6 +125,11 @@ class BadOptions(Folder):
         self.refuses(["OpenGL" if self.has_graphics() else "no graphics"], "--png", "shot.png",
                      "--frames", "1", __EGL_VENDOR_LIBRARY_FILENAMES="/nowhere.json",
                      __EGL_VENDOR_LIBRARY_DIRS="/nowhere")
+
+    def test_a_window_without_a_display(self):
+        for display in ("", ":4711"):
+            self.refuses([f"display '{display}'", "--out"] if self.has_graphics() else
+                         ["no graphics"], "--view", DISPLAY=display)
 
     def test_bench_refuses_an_unknown_scene_and_device(self):
         self.refuses(["known scenes"], "--scenes", "lava", program=BENCH)

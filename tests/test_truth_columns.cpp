@@ -120,7 +120,7 @@ TEST_CASE("truth: a floor that acts once a step leaves n (n - 1) g dt^2, however
         const StepSettings settings =
             onTheFloor(dt, 20 * count * count, ContactOrder::rising, WallTurn::oncePerStep);
         GaussSeidel scheme(column(count, 1, 0), settings);
-        scheme.run(1000);
+        scheme.run(300);
         CHECK(deepestInColumn(scheme.balls()) ==
               withinShare(columnOverlapFloorOnce(count, g, dt), 0.01));
     }

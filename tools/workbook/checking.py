@@ -141,7 +141,7 @@ def check(chapter, args):
             raise InputError(f"{file.relative_to(ROOT)} is missing: ./ballpit reset "
                              f"{chapter.label} brings back the file you started with")
     target = f"check_{chapter.label}" + ("_reference" if args.reference else "")
-    build.configure()
+    build.require(chapter)
     if not args.reference:
         build.set_mine(chapter, whose)
     if log := build.try_build(target):
