@@ -20,7 +20,10 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
                    "cuda or cpu: the same bits on both; by default the GPU "
                    "where there is one")
         ->check(CLI::IsMember({"cuda", "cpu"}));
-    app.add_option("--count", o.count, "number of balls")->capture_default_str();
+    if (app.get_option_no_throw("--scene"))
+        app.add_option("--count", o.count, "number of balls (default: the scene's own)");
+    else
+        app.add_option("--count", o.count, "number of balls")->capture_default_str();
     app.add_option("--seed", o.seed, "seed of the scene")->capture_default_str();
     app.add_option("--out", o.out, "video to write (.mp4, .mkv, .mov or .avi)");
     app.add_option("--png", o.png, "picture of the last frame to write");
@@ -30,8 +33,7 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
 }
 
 void addResponseOptions(CLI::App& app, Options& o) {
-    app.add_option("--response", o.response,
-                   "how collisions are resolved: " + responseNames())
+    app.add_option("--response", o.response, "how collisions are resolved: " + responseNames())
         ->capture_default_str();
     app.add_option("--iterations", o.knobs.iterations,
                    "detect and resolve rounds a step; with warm and small-steps: passes a substep "
@@ -49,7 +51,7 @@ void addResponseOptions(CLI::App& app, Options& o) {
 }
 
 void addSimulationOptions(CLI::App& app, Options& o) {
-    app.add_option("--scene", o.scene, "gravity_fall, uniform, gas or pile")->capture_default_str();
+    app.add_option("--scene", o.scene, sceneNames())->capture_default_str();
     app.add_option("--frames", o.frames, "steps to simulate, one video frame each")
         ->capture_default_str();
     addResponseOptions(app, o);
@@ -114,10 +116,16 @@ std::string oneLine(const CLI::App& app, const CLI::ParseError& error, int argc,
     return text + " (--help shows the options)";
 }
 
+/// The number of balls where --count does not say it.
+int usualCount(const CLI::App& app, const Options& o) {
+    if (o.time) return o.timedCount;
+    return app.get_option_no_throw("--scene") ? sceneKind(o.scene).usualCount : o.count;
+}
+
 /// What follows from the options that were given, and from those that were not.
 void complete(const CLI::App& app, Options& o) {
     const auto given = [&](const char* name) { return app[name]->count() > 0; };
-    if (o.time && !given("--count")) o.count = o.timedCount;
+    if (!given("--count")) o.count = usualCount(app, o);
     if (o.view && !given("--frames")) {
         o.endless = true;
         o.frames = std::numeric_limits<int>::max();
@@ -157,7 +165,8 @@ void requireInRange(const Options& o) {
 
 Scene sceneFor(const Options& o) {
     // With balls of the user's own, the scene still gives the world around them.
-    Scene scene = makeScene(o.scene, o.spheresFile.empty() ? o.count : 1, o.seed);
+    Scene scene =
+        makeScene(o.scene, o.spheresFile.empty() ? o.count : sceneKind(o.scene).usualCount, o.seed);
     if (!o.spheresFile.empty()) scene.spheres = readSpheres(o.spheresFile);
     if (o.dt) scene.dt = *o.dt;
     if (o.gravity) scene.gravity = {0, *o.gravity, 0};
@@ -182,11 +191,11 @@ int parseAndRun(CLI::App& app, int argc, char** argv, Options& options, std::str
         std::cerr << "error: " << oneLine(app, error, argc, argv) << '\n';
         return exitBadInput;
     }
-    complete(app, options);
     options.device = device.empty()     ? defaultDevice()
                      : device == "cuda" ? Device::cuda
                                         : Device::cpu;
     return reportingErrors([&] {
+        complete(app, options);
         requireInRange(options);
         return run(options);
     });

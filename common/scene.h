@@ -35,7 +35,23 @@ Scene makeGas(int count, std::uint64_t seed);
 /// pairs a ball from the first step on.
 Scene makePile(int count, std::uint64_t seed);
 
-/// By name: gravity_fall, uniform, gas, pile. InputError for another name or a count below 1.
+/// Makes a scene of this many balls.
+using SceneMaker = Scene (*)(int count, std::uint64_t seed);
+
+struct SceneKind {
+    const char* name;
+    int usualCount;  ///< of balls
+    SceneMaker make;
+    int leastCount = 1, mostCount = 2147483647;
+};
+
+/// The scene of that name; InputError, naming all, if there is none.
+SceneKind sceneKind(const std::string& name);
+
+/// All names, as "a, b, c".
+std::string sceneNames();
+
+/// By name. InputError for an unknown name or a count that the scene cannot have.
 Scene makeScene(const std::string& name, int count, std::uint64_t seed);
 
 /// Random places for balls of these radii inside `box` so that none overlap or touch a wall.

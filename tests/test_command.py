@@ -77,6 +77,17 @@ class BadOptions(Folder):
     def test_unknown_scene(self):
         self.refuses(["gravity_fal", "known scenes"], "--scene", "gravity_fal")
 
+    def test_unknown_response_names_the_known_ones(self):
+        self.refuses(["gauss", "mass-split", "small-steps", "penalty"], "--response", "gauss")
+
+    def test_knob_that_the_response_does_not_have(self):
+        self.refuses(["substeps 4", "coloured", "small-steps"],
+                     "--response", "coloured", "--substeps", "4")
+
+    def test_restitution_that_springs_cannot_give(self):
+        self.refuses(["restitution 0", "penalty", "small-steps"],
+                     "--response", "penalty", "--restitution", "0")
+
     def test_cell_smaller_than_a_ball_names_the_right_size(self):
         self.refuses(["cell size 0.5", "at least"], "--cell-size", "0.5")
 
