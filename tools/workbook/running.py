@@ -10,7 +10,7 @@ from workbook.chapters import ROOT
 
 def register(commands):
     for name, run, text in [
-            ("demo", demo_command, "record 500 falling balls: videos/gravity_fall.mp4, or --view them"),
+            ("demo", demo_command, "record 500 falling balls: videos/gravity_fall.mp4, --view"),
             ("test", test_command, "build and run all tests of the engine"),
             ("bench", bench_command, "time the engine's stages; `bench 02`: your piece and ours")]:
         # These pass all their options on, --help as well.
