@@ -9,6 +9,7 @@
 #include "common/device.h"
 #include "common/error.h"
 #include "common/random.h"
+#include "stability/catalogue.h"
 
 namespace ballpit {
 
@@ -181,6 +182,15 @@ Scene makePile(int count, std::uint64_t seed) {
 
 namespace {
 
+constexpr SceneKind sceneKinds[] = {{"gravity_fall", 500, makeGravityFall},
+                                    {"uniform", 500, makeUniform},
+                                    {"gas", 500, makeGas},
+                                    {"pile", 500, makePile},
+                                    {"head_on", 10, makeHeadOn},
+                                    {"static_overlap", 512, makeStaticOverlap},
+                                    {"falling_balls", 9, makeFallingBalls},
+                                    {"break", 16, makeBreak}};
+
 /// InputError unless the host has room for the balls: asked before a scene of billions is begun.
 void requireRoomFor(int count) {
     constexpr std::size_t bytesPerBall = 4 * sizeof(Vec3) + 4 * sizeof(float);
@@ -193,14 +203,43 @@ void requireRoomFor(int count) {
 
 }  // namespace
 
-Scene makeScene(const std::string& name, int count, std::uint64_t seed) {
+SceneKind sceneKind(const std::string& name) {
+    for (const SceneKind& kind : sceneKinds)
+        if (name == kind.name) return kind;
+    for (const stability::Entry& entry : stability::catalogue())
+        if (name == entry.name)
+            return {entry.name, entry.usualCount, entry.make, entry.leastCount, entry.mostCount};
+    throw InputError("scene '" + name + "': known scenes are " + sceneNames());
+}
+
+std::string sceneNames() {
+    std::string names;
+    const auto add = [&](const char* name) {
+        names += (names.empty() ? "" : ", ") + std::string(name);
+    };
+    for (const SceneKind& kind : sceneKinds) add(kind.name);
+    for (const stability::Entry& entry : stability::catalogue()) add(entry.name);
+    return names;
+}
+
+namespace {
+
+void requireCount(const SceneKind& kind, int count) {
     if (count < 1) throw InputError("count " + std::to_string(count) + ": at least 1 ball");
+    if (count >= kind.leastCount && count <= kind.mostCount) return;
+    const std::string least = std::to_string(kind.leastCount),
+                      most = std::to_string(kind.mostCount);
+    throw InputError("count " + std::to_string(count) + ": the scene " + kind.name + " has " +
+                     (least == most ? least : least + " to " + most) + " balls");
+}
+
+}  // namespace
+
+Scene makeScene(const std::string& name, int count, std::uint64_t seed) {
+    const SceneKind kind = sceneKind(name);
+    requireCount(kind, count);
     requireRoomFor(count);
-    if (name == "gravity_fall") return makeGravityFall(count, seed);
-    if (name == "uniform") return makeUniform(count, seed);
-    if (name == "gas") return makeGas(count, seed);
-    if (name == "pile") return makePile(count, seed);
-    throw InputError("scene '" + name + "': known scenes are gravity_fall, uniform, gas, pile");
+    return kind.make(count, seed);
 }
 
 }  // namespace ballpit

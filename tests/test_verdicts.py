@@ -153,6 +153,10 @@ class CompileErrors(Workbook):
         self.assertNotIn("echo", text)
         self.assertNotIn("another", text)
 
+    def test_a_path_may_be_told_from_the_build_folder(self):
+        text = self.error("../../chapters/01_first/first.cuh:6:12: error: expected ';'")
+        self.assertIn("\nchapters/01_first/first.cuh:6:12: expected ';'\n        return 0;\n", text)
+
     def test_an_error_inside_the_engine_leads_back_to_the_student(self):
         place = "{root}/chapters/01_first/first.cuh:5"
         for lines in [("{root}/common/x.cuh: In instantiation of 'f<int>':",

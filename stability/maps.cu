@@ -1,0 +1,89 @@
+// ballpit_maps: where each response holds and where it fails, as CSV. `./ballpit maps` draws them.
+#include <omp.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <iostream>
+
+#include "stability/map_file.h"
+#include "stability/run_maps.cuh"
+
+using namespace ballpit;
+using namespace ballpit::stability;
+
+namespace {
+
+struct Asked {
+    std::vector<std::string> names;
+    MapOptions options;
+    std::string out = ".", stamp;
+};
+
+std::string allNames() {
+    std::string names;
+    for (const MapKind& kind : mapKinds())
+        names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    return names;
+}
+
+/// The kinds that were asked for: all, if none.
+std::vector<MapKind> kindsOf(const std::vector<std::string>& names) {
+    if (names.empty()) return mapKinds();
+    std::vector<MapKind> kinds;
+    for (const std::string& wanted : names) {
+        const auto found = std::find_if(mapKinds().begin(), mapKinds().end(),
+                                        [&](const MapKind& kind) { return kind.name == wanted; });
+        if (found == mapKinds().end())
+            throw InputError("map '" + wanted + "': known maps are " + allNames());
+        kinds.push_back(*found);
+    }
+    return kinds;
+}
+
+int run(const Asked& asked) {
+    const std::vector<MapKind> kinds = kindsOf(asked.names);
+    if (asked.options.device == Device::cuda && !cudaUsable())
+        throw InputError("--device cuda: " + whyCudaIsUnusable());
+    if (!std::filesystem::is_directory(asked.out))
+        throw InputError("--out " + asked.out + ": is not a folder");
+    const StopRequest stop;
+    for (const MapKind& kind : kinds) {
+        const Map map = kind.make(asked.options);
+        const double seconds = asked.options.coarse ? kind.coarseSeconds : kind.seconds;
+        std::fprintf(stderr, "%s: %zu cells, about %.0f s on %d idle cores\n", kind.name,
+                     cellCount(map), std::ceil(seconds / omp_get_max_threads()),
+                     omp_get_max_threads());
+        const std::optional<Outcomes> outcomes = runMap(map, asked.options.device);
+        constexpr int stoppedByUser = 130;
+        if (!outcomes) return stoppedByUser;
+        const std::string path = asked.out + "/map_" + kind.name + ".csv";
+        writeMap(path, map, *outcomes, asked.stamp);
+        std::cout << path << std::endl;
+    }
+    return exitOk;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Where each response holds and where it fails: CSV files, map_NAME.csv."};
+    Asked asked;
+    std::string device = name(Device::cpu);
+    app.add_option("names", asked.names, "maps to make (default: all): " + allNames());
+    app.add_flag("--coarse", asked.options.coarse, "few cells, small scenes");
+    app.add_option("--device", device, "cuda or cpu")
+        ->check(CLI::IsMember({"cuda", "cpu"}))
+        ->capture_default_str();
+    app.add_option("--out", asked.out, "folder for the files")->capture_default_str();
+    app.add_option("--stamp", asked.stamp, "lines for the files' head: machine, commit, command");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        std::cerr << "error: " << error.what() << " (--help shows the options)\n";
+        return exitBadInput;
+    }
+    asked.options.device = device == "cuda" ? Device::cuda : Device::cpu;
+    return reportingErrors([&] { return run(asked); });
+}
