@@ -43,7 +43,7 @@ def run(*arguments):
 class Program(unittest.TestCase):
     def refuses(self, words, *arguments):
         with tempfile.TemporaryDirectory() as folder:
-            result = run("--out", folder, *arguments)
+            result = run(*([] if "--out" in arguments else ["--out", folder]), *arguments)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
             for word in words:
