@@ -34,6 +34,11 @@ class Mine(Workbook):
         self.assertEqual(path.stat().st_mtime_ns, stamp)
         self.refuses(["unknown chapter '7'"], "check", "02", "--mine", "7")
 
+    def test_all_leaves_out_later_chapters(self):
+        self.ballpit("check", "01", "--mine", "all")
+        self.assertIn("/chapters/01_first/first.cuh", self.header("01", "01_first/first.cuh"))
+        self.assertIn("/solutions/02_second/second.cuh", self.header("01", "02_second/second.cuh"))
+
 
 class Progress(Workbook):
     def states(self):

@@ -10,7 +10,7 @@ from workbook.chapters import ROOT
 
 def register(commands):
     for name, run, text in [
-            ("demo", demo_command, "record 500 falling balls: videos/gravity_fall.mp4; --view: in a window"),
+            ("demo", demo_command, "record 500 falling balls: videos/gravity_fall.mp4, --view"),
             ("test", test_command, "build and run all tests of the engine"),
             ("bench", bench_command, "time the engine's stages; `bench 02`: your piece and ours")]:
         # These pass all their options on, --help as well.
@@ -19,7 +19,7 @@ def register(commands):
     run.add_argument("chapter", help="number or name, as 02 or grid_hash")
     run.add_argument("--reference", action="store_true", help="with our pieces instead")
     run.add_argument("--mine", metavar="LIST", default="",
-                     help="chapters whose pieces are yours too, as 2,3 or all")
+                     help="chapters whose pieces are yours too, as 2,3 or all (up to this one)")
     run.add_argument("--video", nargs="?", const="", metavar="FILE",
                      help="record a video (build/NN_name.mp4)")
     run.add_argument("--png", nargs="?", const="", metavar="FILE",
