@@ -1,6 +1,7 @@
 // Fills in a map, cell by cell, on all cores; and the table of all maps.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <iostream>
@@ -56,7 +57,8 @@ public:
         const bool tenth = done_ * 10 / cells_ != (done_ - 1) * 10 / cells_;
         if (!tenth || seconds() - shown_ < 2) return;
         shown_ = seconds();
-        std::fprintf(stderr, "%s: %zu of %zu cells, %.0f s\n", name_.c_str(), done_, cells_, shown_);
+        std::fprintf(stderr, "%s: %zu of %zu cells, %.0f s\n", name_.c_str(), done_, cells_,
+                     shown_);
     }
 
 private:
@@ -79,10 +81,11 @@ inline std::optional<Outcomes> runMap(const Map& map, Device device) {
         outcomes.emplace_back(panel.x.values.size() * panel.y.values.size());
     CellCounter counter(map.name, places.size());
     std::exception_ptr error;
+    std::atomic<bool> failed = false;
     const int count = static_cast<int>(places.size());
 #pragma omp parallel for schedule(dynamic, 1) if (device == Device::cpu)
     for (int k = 0; k < count; ++k) {
-        if (StopRequest::received() || error) continue;
+        if (StopRequest::received() || failed) continue;
         const auto [p, x, y] = places[static_cast<std::size_t>(k)];
         const Panel& panel = map.panels[p];
         try {
@@ -91,6 +94,7 @@ inline std::optional<Outcomes> runMap(const Map& map, Device device) {
         } catch (...) {
 #pragma omp critical
             error = std::current_exception();
+            failed = true;
         }
 #pragma omp critical
         counter.done();

@@ -21,7 +21,7 @@ VERDICTS = {"ok": (SKY, "", "ok"),
             "not finite": (INK, "N", "not a number")}
 DASHES = (None, "7 4", "2 3")
 
-CELL_HEIGHT, PANEL_WIDTH, MARGIN = 24, 250, 74
+CELL_HEIGHT, PANEL_WIDTH, MARGIN = 24, 250, 84
 MOST_COLUMNS, HEAD, GAP = 4, 118, 78
 
 
@@ -81,7 +81,8 @@ def place(value, values):
 
 def shown(value):
     """A tick's label."""
-    return f"{value:g}".replace("e+0", "e").replace("e-0", "e-")
+    text = f"{value:g}" if 1e-4 < value < 1e4 or value == 0 else f"{value:.0e}"
+    return text.replace("e+0", "e").replace("e-0", "e-")
 
 
 class Sheet:
@@ -147,14 +148,14 @@ class Sheet:
         for label, points in panel.lines.items():
             self.draw_line(label, [(place(x, xs), place(y, ys)) for x, y in points],
                            lambda at: (left + (at[0] + 0.5) * width, bottom - (at[1] + 0.5) * height))
-        every = 1 if width > 26 else 2
+        every = math.ceil((7 * max(len(shown(x)) for x in xs) + 4) / width)  # those with room
         for k, x in enumerate(xs):
             if k % every == 0:
                 self.figure.text(left + (k + 0.5) * width, bottom + 15, shown(x), 11)
         for k, y in enumerate(ys):
             self.figure.text(left - 5, bottom - (k + 0.5) * height + 4, shown(y), 11, anchor="end")
         self.figure.text(left + PANEL_WIDTH / 2, bottom + 33, panel.x_label, 12)
-        self.upright(left - 46, (top + bottom) / 2, panel.y_label)
+        self.upright(left - 58, (top + bottom) / 2, panel.y_label)
 
     def upright(self, x, y, words):
         self.figure.add("text", words, x=0, y=0, font_size=12, fill=INK, text_anchor="middle",
