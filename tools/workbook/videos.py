@@ -126,7 +126,7 @@ def poster_options(recipe, path):
     return "--poster", path, "--poster-frame", round(recipe.poster * FRAMES_PER_SECOND)
 
 
-# ---- making ---------------------------------------------------------------------------------------
+# ---- making --------------------------------------------------------------------------------------
 
 def make_all(chosen, always):
     results = processes.results_of([functools.partial(make, recipe, always) for recipe in chosen])
@@ -171,7 +171,7 @@ def make_sheets(chosen, folder):
     return 0
 
 
-# ---- checking -------------------------------------------------------------------------------------
+# ---- checking ------------------------------------------------------------------------------------
 
 def check(chosen):
     failed = 0
@@ -250,8 +250,8 @@ def frame_difference(decoded, drawn):
     blur, share = error / max(count, detail), far_off / count
     if blur <= MOST_BLUR and share <= FAR_OFF_SHARE:
         return ""
-    return (f"error {blur:.2f} of the picture's detail (allowed {MOST_BLUR:g}), {share:.1%} far off "
-            f"(allowed {FAR_OFF_SHARE:.1%})")
+    return (f"error {blur:.2f} of the picture's detail (allowed {MOST_BLUR:g}), {share:.1%} "
+            f"far off (allowed {FAR_OFF_SHARE:.1%})")
 
 
 def problems_of_folder():
@@ -267,7 +267,7 @@ def problems_of_folder():
         yield f"{relative(OVERVIEW)} is stale"
 
 
-# ---- embedding ------------------------------------------------------------------------------------
+# ---- embedding -----------------------------------------------------------------------------------
 
 def embedded(recipe, to_folder):
     """The poster as a link to the clip, and the title: Markdown, seen from another folder."""
