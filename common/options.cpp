@@ -169,6 +169,8 @@ void requireInRange(const Options& o) {
         if (angle) require(std::isfinite(*angle), "--yaw, --pitch, --orbit: finite degrees");
     require(o.stills.empty() || (o.out.empty() && o.png.empty()),
             "--stills draws two frames only: leave out --out and --png, or --stills");
+    require(o.stills.empty() || !o.endless,
+            "--stills wants the last frame, and a window has none: say how many with --frames");
     coloringNamed(o.color);
     if (o.dt)
         require(*o.dt > 0 && *o.dt <= 1,

@@ -79,7 +79,10 @@ TEST_CASE("nets of faces show the same balls, but for half a pixel of outline") 
     const OffscreenContext context;
     const std::vector<Ball> balls = manyBalls(40, 0.3f, 0.9f);
     const Frame squares = shown(balls, BallShape::impostors);
-    CHECK(differing(squares, shown(balls, BallShape::gluSpheres), 24) < 0.05);
+    CHECK(differing(squares, shown(balls, BallShape::gluSpheres), 24) < 0.015);
+    const Frame coarse =
+        render(frameWorld(world), 640, 360, balls, {.shape = BallShape::gluSpheres, .slices = 6});
+    CHECK(differing(squares, coarse, 24) > 0.02);
 }
 
 TEST_CASE("a ball too large for a point, or half outside the frame, is whole among points") {

@@ -352,6 +352,9 @@ class Keys(WindowTest):
                 window.toggle(key, field)
                 self.assertEqual(window.picture().difference(first), 0.0)
 
+    def test_the_window_begins_with_the_colouring_of_the_command_line(self):
+        self.open("--color", "cell").wait(lambda state: state["color"] == "cell")
+
     def test_c_goes_through_all_colourings_and_comes_back(self):
         window = self.open_still()
         first, seen = window.picture(), [window.state["color"]]

@@ -1,9 +1,9 @@
 // Chapter 08's executable: the same balls as nets of faces and as exact spheres.
 #include <iostream>
 
+#include "chapters/08_sphere_rendering/growing_nets.h"
 #include "chapters/08_sphere_rendering/showcase.h"
 #include "common/error.h"
-#include "common/film.h"
 #include "common/scene.h"
 
 using namespace ballpit;
@@ -23,7 +23,7 @@ static int run(const Options& o) {
     }
     Options film = o;
     film.png.clear();
-    showSpheres(film, scene.bounds, scene.spheres);
+    if (film.isFilmed()) showGrowingNets(film, fewBallsWorld, fewBalls());
     return exitOk;
 }
 

@@ -13,6 +13,7 @@
 #include "09_video_recording/video_recorder.h"
 #include "common/launch.cuh"
 #include "common/offscreen_context.h"
+#include "common/options.h"
 #include "common/spheres.h"
 
 namespace ballpit {
@@ -63,6 +64,8 @@ public:
         renderer_.draw(now.positions, now.radii, now.colors);
     }
 
+    Frame read() { return renderer_.read(); }
+
 private:
     OffscreenContext context_;
     const HoppingBalls& balls_;
@@ -80,6 +83,15 @@ inline std::string recordClip(const HoppingBalls& balls, const std::string& path
     }
     recorder.release();
     return recorder.encoderName();
+}
+
+/// The first and the last frame of the clip, as pictures: what --stills asks for.
+inline void keepStills(const HoppingBalls& balls, const Options& o) {
+    Studio studio(balls, o.width, o.height);
+    studio.draw(0);
+    writePng(firstStill(o.stills), studio.read());
+    studio.draw(o.frames - 1);
+    writePng(lastStill(o.stills), studio.read());
 }
 
 /// A file of the options' name, or one that is gone at the end.

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "common/libav.h"
 #include "common/hole.cuh"
+#include "common/libav.h"
 
 namespace ballpit {
 

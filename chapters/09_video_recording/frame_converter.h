@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "09_video_recording/pixels.h"
-#include "common/libav.h"
 #include "common/hole.cuh"
+#include "common/libav.h"
 
 namespace ballpit {
 

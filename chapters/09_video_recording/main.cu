@@ -4,6 +4,7 @@
 #include "chapters/09_video_recording/color_block.h"
 #include "chapters/09_video_recording/contact_sheet.h"
 #include "chapters/09_video_recording/stage_times.h"
+#include "common/error.h"
 #include "common/metrics.h"
 #include "common/options.h"
 
@@ -12,8 +13,9 @@ using namespace ballpit;
 namespace {
 
 int run(const Options& options) {
-    const ClipFile file(options.out);
     const HoppingBalls balls(options.count, options.seed);
+    if (!options.stills.empty()) return keepStills(balls, options), exitOk;
+    const ClipFile file(options.out);
     std::cerr << "recorded with "
               << recordClip(balls, file.path, options.frames, options.width, options.height)
               << '\n';

@@ -44,6 +44,7 @@ public:
                   "Ballpit: " + scene.name) {
         addKeys();
         tellView();
+        link_.remote.change([&](Wishes& w) { w.colorBy = coloringNamed(options.color); });
         window_.setRenderFunction([this] { showNewest(); });
     }
 

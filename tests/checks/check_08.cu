@@ -7,6 +7,7 @@
 #include "common/offscreen_context.h"
 #include "tests/checks/check_08_parts.cuh"
 #include "tests/checks/check_08_pictures.cuh"
+#include "tests/checks/check_08_shaders.cuh"
 
 using namespace ballpit;
 using namespace ballpit::check;
@@ -255,6 +256,18 @@ int main(int argc, char** argv) {
          {"size.slices", "As few slices as keep the outline within half a pixel",
           "32 slices are too many for a ball of 10 pixels, and too few for one of 200.",
           slicesByTable},
+         {"light.by_hand", "phong() gives the numbers worked out by hand",
+          "Each GLSL function is run alone, for one pixel: so a slip is found before there is a "
+          "picture.",
+          phongByHand},
+         {"impostor.hit_by_hand", "sphereHit() gives the numbers of the worked example",
+          "The ray need not have length 1, and one that just misses must give a number, too.",
+          hitByHand},
+         {"impostor.normal_by_hand", "sphereNormal() points out of the ball and has length 1",
+          "A normal of another length makes the light too strong or too weak.", normalByHand},
+         {"impostor.depth_by_hand", "windowDepth() is 0 on the near plane and 1 on the far one",
+          "The depth test compares your number with those that OpenGL computes for nets and floor.",
+          depthByHand},
          {"net.radius", "A sphere has the radius it was asked for, not the diameter",
           "The list holds a sphere of radius 1. What scales it is the radius.", sphereList},
          {"net.place", "Every ball covers the pixel of its centre, in its own colour",

@@ -19,6 +19,7 @@ OVERVIEW = FOLDER / "README.md"
 DEMO = "gravity_fall"  # what `demo` leaves there, not committed
 
 WIDTH, HEIGHT, FRAMES_PER_SECOND, COMPRESSION = 960, 540, 60, 28
+SECONDS = 1800  # that a film may take: encoding is slow on a busy machine
 MOST_BYTES, MOST_BYTES_IN_ALL = 1_500_000, 12_000_000
 
 # How far a decoded frame may be from a drawn one, both halved in size. The error is measured in
@@ -56,7 +57,9 @@ class Recipe:
         film = ["--width", WIDTH, "--height", HEIGHT, "--frames", self.frames, "--device", "cpu"]
         if "--compression" not in self.arguments:
             film += ["--compression", COMPRESSION]
-        answer(self.program, [str(word) for word in [*film, *self.arguments, *further]])
+        # Two films are made at a time, so each gets one thread.
+        answer(self.program, [str(word) for word in [*film, *self.arguments, *further]], SECONDS,
+               OMP_NUM_THREADS="1")
 
 
 def register(commands):
