@@ -114,7 +114,7 @@ class Drawing(unittest.TestCase):
     def test_a_picture_has_title_axes_machine_and_a_legend_of_what_occurs(self):
         picture = failure_map.draw(self.file)
         for words in ("Does it hold?", "ok: it holds", "racy, e = 1", "radii in a step", "balls",
-                      "a machine, commit 1", "energy from nowhere", "predicted: a &lt; b"):
+                      "a machine, commit 1", "energy from nowhere", "line: a &lt; b"):
             self.assertIn(words, picture)
         self.assertNotIn(">too many pairs<", picture)
 
