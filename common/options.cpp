@@ -33,8 +33,7 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
 }
 
 void addResponseOptions(CLI::App& app, Options& o) {
-    app.add_option("--response", o.response,
-                   "how collisions are resolved: " + responseNames())
+    app.add_option("--response", o.response, "how collisions are resolved: " + responseNames())
         ->capture_default_str();
     app.add_option("--iterations", o.knobs.iterations,
                    "detect and resolve rounds a step; with warm and small-steps: passes a substep "

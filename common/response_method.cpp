@@ -67,8 +67,8 @@ void requireKnob(const Method& m, const char* knob, const std::optional<T>& valu
     if (!value) return;
     const std::string said = std::string(knob) + " " + number(double(*value)) + ": ";
     if (!(m.*range))
-        throw InputError(said + "the response " + m.name + " has no such knob; those that have: " +
-                         methodsWith(range));
+        throw InputError(said + "the response " + m.name +
+                         " has no such knob; those that have: " + methodsWith(range));
     const Range r = *(m.*range);
     if (!(*value >= r.least && *value <= r.most))
         throw InputError(said + number(r.least) + " to " + number(r.most) + unit);

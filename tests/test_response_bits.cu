@@ -5,8 +5,8 @@
 
 #include <set>
 
-#include "common/one_round.cuh"
 #include "common/host_pairs.h"
+#include "common/one_round.cuh"
 #include "tests/response_scenes.h"
 
 using namespace ballpit;
@@ -48,6 +48,26 @@ TEST_CASE("with each response one, two and three threads give the same bits", "[
     setThreads(before);
 }
 
+TEST_CASE("each response ends with its golden hash on every device", "[stability]") {
+    struct Golden {
+        ResponseMethod method;
+        const char* scene;
+        const char* hash;
+    };
+    using enum ResponseMethod;
+    const Device device = GENERATE(from_range(test::devices()));
+    const std::vector<Golden> runs{
+        {jacobi, "gas", "2d9fdbc3e57bec1a"},     {jacobi, "pile", "d01805ebda3879cc"},
+        {coloured, "gas", "1c43b6138854fff2"},   {coloured, "pile", "0bf00ea6747c18fa"},
+        {warm, "gas", "370f048566846c95"},       {warm, "pile", "eb59cb172b5906fd"},
+        {smallSteps, "gas", "08af35414dbda390"}, {smallSteps, "pile", "d257802294ddc449"},
+        {penalty, "gas", "813d29d2a5bd9ab9"},    {penalty, "pile", "0e51040289cdaa5f"}};
+    for (const Golden& run : runs) {
+        CAPTURE(device, run.method, run.scene);
+        CHECK(hashAfter(sceneNamed(run.scene), device, run.method, 20) == run.hash);
+    }
+}
+
 TEST_CASE("with each response any order of the threads gives the same bits", "[stability]") {
     const ResponseMethod method = GENERATE(from_range(test::newMethods()));
     const Scene scene = sceneNamed(GENERATE("gas", "pile"));
@@ -67,7 +87,8 @@ TEST_CASE("CPU and GPU agree to the last bit with each response over 120 steps",
     const Scene scene = sceneNamed(GENERATE("gas", "pile"));
     CAPTURE(method, scene.name);
     // Jacobi's pile boils but stays finite; its gas at e = 0.9 as well.
-    CHECK(hashAfter(scene, Device::cpu, method, 120) == hashAfter(scene, Device::cuda, method, 120));
+    CHECK(hashAfter(scene, Device::cpu, method, 120) ==
+          hashAfter(scene, Device::cuda, method, 120));
 }
 
 TEST_CASE("a full pair list and a rehearsal change no bit of what warm remembers", "[stability]") {
@@ -219,8 +240,9 @@ TEST_CASE("a hub with more contacts than colours is resolved exactly and in any 
         const float y = 1.0f - (float(k) + 0.5f) / 75.0f, angle = 2.39996323f * float(k);
         const float ring = std::sqrt(1.0f - y * y);
         const Vec3 direction{ring * std::cos(angle), y, ring * std::sin(angle)};
-        scene.spheres.add(4.32f * direction, -2.0f * direction + random.uniformIn({{0, 0, 0}, {1, 1, 1}}),
-                          0.3f, 1.0f, 1.0f);
+        scene.spheres.add(4.32f * direction,
+                          -2.0f * direction + random.uniformIn({{0, 0, 0}, {1, 1, 1}}), 0.3f, 1.0f,
+                          1.0f);
     }
     SimulatorSettings settings = test::settingsFor(scene, device, ResponseMethod::coloured);
     const Spheres end = test::simulate(scene, settings, 5);

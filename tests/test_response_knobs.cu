@@ -30,10 +30,10 @@ TEST_CASE("a response's name leads back to it", "[stability]") {
 }
 
 TEST_CASE("an unknown response is refused with the known ones", "[stability]") {
-    const std::string message =
-        test::messageOf<InputError>([] { responseMethod("gauss-seidel"); });
-    CHECK(message == "response 'gauss-seidel': known responses are mass-split, racy, atomic, "
-                     "jacobi, coloured, warm, small-steps, penalty");
+    const std::string message = test::messageOf<InputError>([] { responseMethod("gauss-seidel"); });
+    CHECK(message ==
+          "response 'gauss-seidel': known responses are mass-split, racy, atomic, "
+          "jacobi, coloured, warm, small-steps, penalty");
 }
 
 TEST_CASE("a knob that a response does not have is refused, with those that have it",
@@ -72,8 +72,7 @@ TEST_CASE("springs refuse a restitution that no dashpot gives, and say who can",
     Scene scene = test::emptyWorld();
     scene.spheres.add({0, 0, 0}, {0, 0, 0}, 0.5f, 1.0f, 0.5f);
     scene.spheres.add({2, 0, 0}, {0, 0, 0}, 0.5f, 1.0f, 0.0f);
-    PhysicsSimulator simulator(
-        test::settingsFor(scene, Device::cpu, ResponseMethod::penalty));
+    PhysicsSimulator simulator(test::settingsFor(scene, Device::cpu, ResponseMethod::penalty));
     simulator.bodies().upload(scene.spheres);
     const std::string message = test::messageOf<InputError>([&] { simulator.step(); });
     CHECK(test::contains(message, "restitution 0"));

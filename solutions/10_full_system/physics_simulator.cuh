@@ -162,8 +162,7 @@ private:
         if (useRecording && scratchReady_) {
             auto [place, isNew] = recordings_.try_emplace({from.moving, from.fixed, rebuild});
             RecordedStep& step = place->second;
-            if (isNew)
-                step.launches.record([&] { step.result = enqueue(from, rebuild); });
+            if (isNew) step.launches.record([&] { step.result = enqueue(from, rebuild); });
             step.launches.replay();
             next_ = step.result;
         } else {

@@ -33,10 +33,9 @@ inline std::unique_ptr<Response> makeResponse(const SimulatorSettings& s) {
         case ResponseMethod::coloured:
             return std::make_unique<ColouredResponse>(s.device, bodies, pairs, rules);
         case ResponseMethod::warm:
-            return std::make_unique<WarmResponse>(
-                s.device, bodies, pairs,
-                WarmSettings{h, *s.iterations, *s.positionShare, *s.restitutionThreshold,
-                             s.bounds});
+            return std::make_unique<WarmResponse>(s.device, bodies, pairs,
+                                                  WarmSettings{h, *s.iterations, *s.positionShare,
+                                                               *s.restitutionThreshold, s.bounds});
         case ResponseMethod::smallSteps:
             return std::make_unique<SmallSteps>(
                 s.device, bodies, pairs,

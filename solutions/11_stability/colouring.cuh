@@ -158,7 +158,8 @@ HD inline void flagOverflow(int k, ColouringView view) {
 }
 
 HD inline void listOverflow(int k, ColouringView view) {
-    if (view.overflowFlags[k]) view.overflow[view.overflowStarts[k]] = static_cast<std::uint32_t>(k);
+    if (view.overflowFlags[k])
+        view.overflow[view.overflowStarts[k]] = static_cast<std::uint32_t>(k);
 }
 
 /// body(k, arguments...) for the place-th pair k of a colour.

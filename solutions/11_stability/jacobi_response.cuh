@@ -2,9 +2,9 @@
 // there were no other pair; every body adds up those of its contacts, times a relaxation factor.
 //
 // Momentum is kept, and the bits are the same everywhere: the sum is gathered in a fixed order, as
-// chapter 07's. What is not kept is energy: k contacts that push a ball at once push it k times, and
-// nobody notices until the next round. (A hub that meets k spokes at rest at an angle of cosine c
-// is safe only while (1 + e)(1 + B (k c^2 - 1)) <= 2, B = m_spoke / (m_spoke + m_hub).)
+// chapter 07's. What is not kept is energy: k contacts that push a ball at once push it k times,
+// and nobody notices until the next round. (A hub that meets k spokes at rest at an angle of cosine
+// c is safe only while (1 + e)(1 + B (k c^2 - 1)) <= 2, B = m_spoke / (m_spoke + m_hub).)
 //
 // Where it holds: thin gases, and dull balls (e <= 0.5). Where it fails: a dense elastic gas
 // explodes, and no step is small enough to prevent it; a relaxation below 1 trades that for balls

@@ -2,8 +2,8 @@
 //     F = m_eff (K d - C v_n),    K = (pi^2 + ln^2 e) / t_c^2,    C = -2 ln e / t_c,
 // with d the penetration in m, v_n the speed of separation in m/s and m_eff = 1 / (1/m_a + 1/m_b):
 // every contact of two bodies then takes the same time t_c and ends with e times the speed. (The
-// dashpot pulls at the end of a contact; that is part of the formula for e.) Walls are the same, with
-// m_eff the body's mass. Each body adds up its contacts in a fixed order.
+// dashpot pulls at the end of a contact; that is part of the formula for e.) Walls are the same,
+// with m_eff the body's mass. Each body adds up its contacts in a fixed order.
 //
 // The step must resolve the contact: t_c is 20 substeps, and more substeps make harder balls. Where
 // it fails: a ball of speed v sinks in by v t_c / pi, so a fast one passes through; and e is met to
@@ -58,8 +58,7 @@ HD inline float pressureOfWalls(float place, float velocity, float lower, float 
 
 HD inline void emptyString(int i, ContactsView contacts) { contacts.firstIncoming[i] = noPair; }
 HD inline void linkPairs(int thread, ContactsView contacts) {
-    visitPairsOfThread(thread, contacts.pairs,
-                       [&](std::uint32_t k) { linkIncoming(k, contacts); });
+    visitPairsOfThread(thread, contacts.pairs, [&](std::uint32_t k) { linkIncoming(k, contacts); });
 }
 HD inline void sortString(int i, ContactsView contacts) { sortIncoming(i, contacts); }
 

@@ -1,10 +1,10 @@
 // Chapter 11: one list of pairs for several moves. A body's reach is how far it may move while the
 // list is in use; listed are all pairs whose balls, grown by their reaches, overlap.
 //
-// Why nothing is missed: a pair not listed had a gap of at least the sum of its two reaches. As long
-// as neither body is farther from where it was then than its reach, the gap is not closed. So it
-// is enough to watch each body by itself (reportReach); if one goes too far, the step is repeated
-// with a new list for every move.
+// Why nothing is missed: a pair not listed had a gap of at least the sum of its two reaches. As
+// long as neither body is farther from where it was then than its reach, the gap is not closed. So
+// it is enough to watch each body by itself (reportReach); if one goes too far, the step is
+// repeated with a new list for every move.
 #pragma once
 
 #include <limits>
@@ -26,8 +26,7 @@ struct ReachSettings {
 };
 
 HD inline float reachOf(float radius, float speed, const ReachSettings& s) {
-    const float wanted =
-        s.time * (speed + s.time * s.gravity) + s.slack * radius;
+    const float wanted = s.time * (speed + s.time * s.gravity) + s.slack * radius;
     return minimum(wanted, maximum(s.halfCell - radius, 0.0f));
 }
 

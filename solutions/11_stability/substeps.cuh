@@ -18,8 +18,8 @@ public:
 
     std::size_t bytes() const { return StepStages::bytes() + grown_.bytes(); }
 
-    /// Moves the bodies freely for a substep, to others or where they are; walls are the response's.
-    /// Hashes them as well, in case the grid is built next.
+    /// Moves the bodies freely for a substep, to others or where they are; walls are the
+    /// response's. Hashes them as well, in case the grid is built next.
     void moveFreely(Copies from, Copies to) {
         timer_.start("integrate + hash");
         launch<integrateAndHash>(

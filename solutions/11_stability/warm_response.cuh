@@ -10,7 +10,8 @@
 // away, which changes no velocity. A contact is allowed to close its gap in this step, not more.
 //
 // Where it fails: the bounces of all contacts of a step are fixed before the first impulse, so it
-// finds one solution for all at once. In Newton's cradle that one is wrong, however many the passes.
+// finds one solution for all at once. In Newton's cradle that one is wrong, however many the
+// passes.
 #pragma once
 
 #include "11_stability/small_steps.cuh"
@@ -40,10 +41,10 @@ struct RememberedView {
 };
 
 struct WarmView {
-    SmallStepView motion;   ///< places and corrections, for the pushes at the end
-    View<float> impulses;   ///< by pair: the sum so far, N s
-    View<float> wanted;     ///< by pair: the least speed of separation, m/s
-    View<Vec4> wallChanges; ///< by slot: what the walls gave so far, m/s along x, y, z
+    SmallStepView motion;    ///< places and corrections, for the pushes at the end
+    View<float> impulses;    ///< by pair: the sum so far, N s
+    View<float> wanted;      ///< by pair: the least speed of separation, m/s
+    View<Vec4> wallChanges;  ///< by slot: what the walls gave so far, m/s along x, y, z
     WarmSettings settings;
 };
 
@@ -65,16 +66,10 @@ HD inline void beginPair(std::uint32_t k, WarmView view, RememberedView memory) 
     const bool bounces =
         contact.penetration > 0.0f && contact.separation < 0.0f && restitution > 0.0f;
     const float gapBefore = -contact.penetration - view.settings.h * contact.separation;
-    view.wanted[k] = bounces ? -restitution * contact.separation
-                             : -maximum(gapBefore, 0.0f) / view.settings.h;
+    view.wanted[k] =
+        bounces ? -restitution * contact.separation : -maximum(gapBefore, 0.0f) / view.settings.h;
     const std::uint32_t idA = bodies.ids[a], idB = bodies.ids[b];
     view.impulses[k] = rememberedBy(idA, idB, memory) + rememberedBy(idB, idA, memory);
-}
-
-/// Changes the velocities of a pair's bodies by an impulse along the normal.
-HD inline void applyImpulse(float impulse, Vec3 normal, Vec4& velocityA, Vec4& velocityB) {
-    velocityA = withW(xyz(velocityA) - (impulse * velocityA.w) * normal, velocityA.w);
-    velocityB = withW(xyz(velocityB) + (impulse * velocityB.w) * normal, velocityB.w);
 }
 
 /// Pair k gives what it gave in the step before.
@@ -83,7 +78,7 @@ HD inline void warmStart(std::uint32_t k, WarmView view) {
     if (impulse == 0.0f) return;
     const auto [a, b] = view.motion.round.pairs.pairs[k];
     const BodiesView& to = view.motion.round.to;
-    applyImpulse(impulse, contactBetween(a, b, view.motion.round.from).normal, to.velocities[a],
+    applyImpulse(impulse * contactBetween(a, b, view.motion.round.from).normal, to.velocities[a],
                  to.velocities[b]);
 }
 
@@ -95,10 +90,10 @@ HD inline void accumulate(std::uint32_t k, WarmView view) {
     const Vec3 normal = contactBetween(a, b, view.motion.round.from).normal;
     const float separation = dot(xyz(velocityB) - xyz(velocityA), normal);
     const float before = view.impulses[k];
-    const float after = maximum(
-        before + (view.wanted[k] - separation) / (velocityA.w + velocityB.w), 0.0f);
+    const float after =
+        maximum(before + (view.wanted[k] - separation) / (velocityA.w + velocityB.w), 0.0f);
     view.impulses[k] = after;
-    applyImpulse(after - before, normal, velocityA, velocityB);
+    applyImpulse((after - before) * normal, velocityA, velocityB);
 }
 
 /// Along one axis: the same for the nearer wall. `came` is the velocity before any impulse, `place`
@@ -208,6 +203,7 @@ public:
           colouring_(device, bodyCount, pairCapacity),
           corrections_(device, bodyCount, "corrections"),
           wallChanges_(device, bodyCount, "wallChanges"),
+          wallsThatPushed_(device, bodyCount, "wallsThatPushed"),
           pushes_(device, pairCapacity, "pairPushes"),
           impulses_(device, pairCapacity, "pairImpulses"),
           wanted_(device, pairCapacity, "wantedSpeeds"),
@@ -218,12 +214,12 @@ public:
 
     void resolve(const ResponseRound& round) override {
         const int bodies = round.bodyCount;
-        const WarmView view{
-            {round, corrections_.view(), pushes_.view(), settings_.positionShare},
-            impulses_.view(),
-            wanted_.view(),
-            wallChanges_.view(),
-            settings_};
+        const WarmView view{{round, corrections_.view(), wallsThatPushed_.view(), pushes_.view(),
+                             settings_.positionShare},
+                            impulses_.view(),
+                            wanted_.view(),
+                            wallChanges_.view(),
+                            settings_};
         colouring_.colour(round.pairs);
         colouring_.forEachPair<beginPair>(view, committed_.view());
         launch<beginBody>(device_, bodies, view, committed_.view());
@@ -243,21 +239,23 @@ public:
 
     void reserve(std::size_t pairCapacity) override {
         colouring_.reserve(pairCapacity);
-        for (DeviceBuffer<float>* array : {&pushes_, &impulses_, &wanted_})
-            array->resize(pairCapacity);
+        pushes_.resize(pairCapacity);
+        impulses_.resize(pairCapacity);
+        wanted_.resize(pairCapacity);
         RememberedImpulses larger(device_, corrections_.count(), pairCapacity);
         larger.copy(committed_);
         committed_ = std::move(larger);
         next_ = RememberedImpulses(device_, corrections_.count(), pairCapacity);
     }
     std::size_t bytes() const override {
-        return colouring_.bytes() + corrections_.bytes() + wallChanges_.bytes() + pushes_.bytes() +
-               impulses_.bytes() + wanted_.bytes() + committed_.bytes() + next_.bytes();
+        return colouring_.bytes() + corrections_.bytes() + wallChanges_.bytes() +
+               wallsThatPushed_.bytes() + pushes_.bytes() + impulses_.bytes() + wanted_.bytes() +
+               committed_.bytes() + next_.bytes();
     }
     static std::size_t predictedBytes(std::size_t bodyCount, std::size_t pairCapacity) {
         return Colouring::predictedBytes(bodyCount, pairCapacity) +
-               bodyCount * 2 * (2 * sizeof(Vec4) + sizeof(EntryRange)) +
-               pairCapacity * (5 * sizeof(float) + 2 * sizeof(std::uint32_t));
+               bodyCount * (2 * (2 * sizeof(Vec4) + sizeof(EntryRange)) + sizeof(std::uint32_t)) +
+               pairCapacity * (sizeof(Vec4) + 4 * sizeof(float) + 2 * sizeof(std::uint32_t));
     }
 
 private:
@@ -265,7 +263,9 @@ private:
     WarmSettings settings_;
     Colouring colouring_;
     DeviceBuffer<Vec4> corrections_, wallChanges_;
-    DeviceBuffer<float> pushes_, impulses_, wanted_;
+    DeviceBuffer<std::uint32_t> wallsThatPushed_;
+    DeviceBuffer<Vec4> pushes_;
+    DeviceBuffer<float> impulses_, wanted_;
     RememberedImpulses committed_, next_;
 };
 
