@@ -37,11 +37,27 @@ public:
         }
     }
 
+    /// Does a step's work, and keeps the state. For measuring time.
+    void rehearse() { simulator_.rehearseStep(); }
+
     Spheres balls() { return simulator_.bodies().download(); }
     const Scene& scene() const { return scene_; }
-    std::string method() const { return name(method_); }
-    Metrics metricsOf(const Spheres& balls) const {
-        return measure(balls, scene_.bounds, scene_.gravity, scene_.dt);
+    ResponseMethod method() const { return method_; }
+    std::string methodName() const { return name(method_); }
+    const ResponseKnobs& knobs() const { return simulator_.settings(); }
+
+    /// Pairs on the list of the last step, whether they touch or are within reach.
+    std::size_t listedPairs() { return simulator_.lastPairs().size(); }
+    /// Kinetic energy over that at the start.
+    double energyShare() { return energyOf(balls()) / energyOf(scene_.spheres); }
+    /// The deepest, in radii.
+    double overlap() { return metricsOf(balls()).largestPenetration / stability::ballRadius; }
+
+    /// m/s.
+    double topSpeed() {
+        float speed = 0;
+        for (const Vec3 v : balls().velocities) speed = std::max(speed, length(v));
+        return double(speed);
     }
 
 private:
@@ -52,6 +68,11 @@ private:
         if (fighter.substeps) settings.substeps = fighter.substeps;
         return settings;
     }
+
+    Metrics metricsOf(const Spheres& balls) const {
+        return measure(balls, scene_.bounds, scene_.gravity, scene_.dt);
+    }
+    double energyOf(const Spheres& balls) const { return metricsOf(balls).kineticEnergy; }
 
     Scene scene_;
     ResponseMethod method_;
@@ -66,18 +87,14 @@ inline std::string fourDigits(double value) {
     std::snprintf(text, sizeof text, "%.4g", value);
     return text;
 }
-inline std::string energyKept(Side& side) {
-    return fourDigits(side.metricsOf(side.balls()).kineticEnergy /
-                      side.metricsOf(side.scene().spheres).kineticEnergy);
-}
-inline std::string deepestOverlap(Side& side) {
-    return fourDigits(side.metricsOf(side.balls()).largestPenetration / stability::ballRadius);
-}
+inline std::string energyKept(Side& side) { return fourDigits(side.energyShare()); }
+inline std::string deepestOverlap(Side& side) { return fourDigits(side.overlap()); }
 inline std::string ballsStruck(Side& side) {
     const std::vector<Vec3> speeds = side.balls().velocities;
     return std::to_string(std::count_if(speeds.begin() + 1, speeds.end(),
                                         [](Vec3 v) { return lengthSquared(v) > 0.0f; }));
 }
+inline std::string fastestBall(Side& side) { return fourDigits(side.topSpeed()); }
 inline std::string speeds(Side& side) {
     std::string text;
     for (const Vec3 v : side.balls().velocities)
@@ -93,6 +110,11 @@ struct Duel {
     Fighter fails, holds;
     const char* measure;
     std::string (*value)(Side& side);
+
+    /// What a figure follows from step to step: the overlap with gravity, else the energy.
+    double track(Side& side) const {
+        return side.scene().gravity.y != 0 ? side.overlap() : side.energyShare();
+    }
 };
 
 inline std::vector<Duel> allDuels() {
@@ -109,7 +131,7 @@ inline std::vector<Duel> allDuels() {
              energyKept},
             {"gas",
              [](Seed seed) { return makeGasOf({.count = 216, .volumeShare = 0.4f, .seed = seed}); },
-             40,
+             80,
              {jacobi},
              {coloured},
              energy,
@@ -135,6 +157,13 @@ inline std::vector<Duel> allDuels() {
              {smallSteps, 0, 64},
              "balls struck",
              ballsStruck},
+            {"crowd",
+             [](Seed seed) { return makePile(500, seed); },
+             10,
+             {smallSteps},
+             {warm},
+             "fastest ball, m/s",
+             fastestBall},
             {"cradle",
              [](Seed) { return makeCradle(5, false); },
              60,

@@ -54,8 +54,9 @@ inline void filmDuel(const Duel& duel, const Options& options) {
             for (std::size_t k = 0; k < balls.count(); ++k)
                 both.add(balls.positions[k] + moved, {}, balls.radii[k], 1.0f, 1.0f, colors[k]);
         }
-        film.capture(both.positions, both.radii, both.colors,
-                     duel.scene + ": " + match.sides[0].method() + " | " + match.sides[1].method());
+        film.capture(
+            both.positions, both.radii, both.colors,
+            duel.scene + ": " + match.sides[0].methodName() + " | " + match.sides[1].methodName());
     }
     film.finish();
 }

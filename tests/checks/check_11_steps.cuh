@@ -65,6 +65,9 @@ inline void bounceHeadOn(Report& report) {
                 const auto [a, b] = truth::headOn(1, speed, massB, -0.5 * speed, e);
                 requireHead(report, head, a, b);
             }
+    // A default threshold of 1 m/s would eat this one.
+    requireHead(report, {1, 0, 1, 1, 0.1f}, 0, 1);
+    const Spheres half = Head{1, 0, 1, 1, 0.1f}.after(report.device);
     // What mistakes make of 1 and -0.5 m/s, 1 kg, e = 0.5: the push alone parts them with 0.4 m/s.
     const Head known{1, -0.5f, 1, 0.5f, 0.1f};
     const Spheres got = known.after(report.device);
@@ -73,7 +76,12 @@ inline void bounceHeadOn(Report& report) {
         return [parting, speed] { return std::abs(parting - speed) < 1e-3f; };
     };
     report.guess(
-        {{"lively pairs got no impulse after their push was taken back", parts(-1.5f)},
+        {{"a restitution threshold of 1 m/s or more: who hits a ball at rest with 1 m/s stays with "
+          "it, both at half the speed",
+          [&] {
+              return length(half.velocities[0] - Vec3{0.5f, 0, 0}) < 1e-3f;
+          }},
+         {"lively pairs got no impulse after their push was taken back", parts(-1.5f)},
          {"the push was not taken back: the bounce starts from the velocity after it, and not "
           "from the one before",
           parts(0.55f)},
@@ -136,6 +144,23 @@ inline void columnOfTen(Report& report) {
                     "below 0.05");
     report.measured("a column of ten after 3 s of small steps: deepest overlap " +
                     text(std::round(1e4f * float(small)) / 1e4f) + " r");
+}
+
+/// A fast ball strikes a second one, which was at rest, and so had a short reach; within the same
+/// step that one meets a third, which was not on its list.
+inline void struckBeyondReach(Report& report) {
+    Scene scene{"chain", {}, {{-20, -20, -20}, {20, 20, 20}}, 1.25f, {0, 0, 0}, 0, 1.0f / 60};
+    for (const float x : {-1.02f, 0.0f, 1.25f})
+        scene.spheres.add({x, 0, 0}, {x < -1 ? 30.0f : 0.0f, 0, 0}, 0.5f, 1, 1);
+    const std::vector<Vec3> after =
+        afterSteps(scene, report.device, ResponseMethod::smallSteps, 1).velocities;
+    for (std::size_t k = 0; k < 3; ++k)
+        requireNear(report, "three in a row, 30 m/s: speed of ball " + text(k) + " after a step",
+                    double(after[k].x), k == 2 ? 30 : 0, 1e-3);
+    report.guess(
+        {{"the list of pairs was used beyond the reaches it was made for: the second "
+          "ball passes into the third unseen",
+          [&] { return std::abs(after[1].x - 30) < 1e-2f; }}});
 }
 
 // ---- accumulated impulses
@@ -288,6 +313,25 @@ inline void springsBounce(Report& report) {
         found += words;
     }
     report.measured("springs asked for e = 0.3, 0.5, 0.8, 1 give " + found);
+}
+
+/// A ball hits one at rest, along x and along other ways: the same speeds, and none across.
+inline void springsEverywhere(Report& report) {
+    bool rightAlongX = false;
+    for (const Vec3 way :
+         {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0.6f, 0, 0.8f}, Vec3{-0.48f, 0.6f, -0.64f}}) {
+        Scene scene{"springs", {}, {{-20, -20, -20}, {20, 20, 20}}, 1.25f, {0, 0, 0}, 0, 1.0f / 60};
+        scene.spheres.add({0, 0, 0}, way, 0.5f, 1, 0.5f);
+        scene.spheres.add(1.01f * way, {0, 0, 0}, 0.5f, 1, 0.5f);
+        const Vec3 got =
+            afterSteps(scene, report.device, ResponseMethod::penalty, 10).velocities[1];
+        const std::string where = "hit along " + text(way) + ": the other ball's speed ";
+        requireNear(report, where + "that way", double(dot(got, way)), 0.75, 0.02);
+        requireNear(report, where + "across", double(length(got - dot(got, way) * way)), 0, 1e-3);
+        if (way.x == 1) rightAlongX = !report.failed();
+    }
+    report.guess({{"the dashpot works on x, y and z by themselves, not along the normal",
+                   [&] { return rightAlongX; }}});
 }
 
 }  // namespace ballpit::check
