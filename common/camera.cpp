@@ -66,11 +66,8 @@ std::optional<PixelPosition> projectToPixel(const Camera& camera, int width, int
     return inside ? std::optional(pixel) : std::nullopt;
 }
 
-Camera frameWorld(Bounds world) {
+Camera frameWorld(Bounds world, Vec3 viewDirection) {
     constexpr float aspect = 16.0f / 9.0f, margin = 1.06f;
-    // From this side the axes at world.lower stand at the left, not behind the balls.
-    constexpr Vec3 viewDirection{0.50f, -0.36f, -0.79f};
-
     Camera camera;
     camera.target = viewDirection;
     const auto [right, up, forward] = axesOf(camera);

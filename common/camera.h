@@ -40,7 +40,11 @@ Vec3 transformDirection(const Matrix4& matrix, Vec3 direction);
 std::optional<PixelPosition> projectToPixel(const Camera& camera, int width, int height,
                                             Vec3 point);
 
-/// A three-quarter view of the whole box, as near as a 16:9 frame allows.
-Camera frameWorld(Bounds world);
+/// A three-quarter view. From this side the axes at world.lower stand at the left, not behind the
+/// balls.
+inline constexpr Vec3 usualViewDirection{0.50f, -0.36f, -0.79f};
+
+/// A view of the whole box along a direction, as near as a 16:9 frame allows.
+Camera frameWorld(Bounds world, Vec3 viewDirection = usualViewDirection);
 
 }  // namespace ballpit

@@ -1,7 +1,6 @@
 // The film of a build with graphics.
 #include "common/film.h"
 
-#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <optional>
@@ -30,9 +29,10 @@ void tellSpeed(const VideoRecorder& recorder, double milliseconds) {
 
 struct Film::Crew {
     Crew(const FilmOrder& order, Bounds world)
-        : renderer(world, order.width, order.height), order(order) {
+        : renderer(world, order.width, order.height), order(order), world(world) {
         if (!order.video.empty()) {
-            recorder.emplace(order.video, order.width, order.height, framesPerSecond);
+            recorder.emplace(order.video, order.width, order.height, framesPerSecond,
+                             preferredEncoders(), order.compression);
             if (!recorder->notice().empty()) std::cerr << "note: " << recorder->notice() << '\n';
         }
     }
@@ -40,14 +40,27 @@ struct Film::Crew {
     ~Crew() { context.makeCurrent(); }
     Crew(const Crew&) = delete;
 
+    /// With stills, only the first and the last frame are drawn.
+    bool isWanted(int number) const {
+        return order.stills.empty() || number == 0 || number == order.frames - 1;
+    }
+
     /// One frame: the picture that `draw` draws, text over it, recorded.
     template <class Draw>
     void take(Draw draw, const std::string& text) {
+        const int number = frames++;
+        if (!isWanted(number)) return;
         context.makeCurrent();
         if (start == 0) start = milliseconds();
+        if (!isLooked)
+            renderer.camera =
+                cameraOf(order.shot, world, static_cast<float>(number) / framesPerSecond);
         draw();
         painter.draw(text, TextPainter::Place::topLeft, order.width, order.height);
         if (recorder) recorder->captureFrame();
+        if (!order.stills.empty())
+            writePng(number == 0 ? firstStill(order.stills) : lastStill(order.stills),
+                     renderer.read());
     }
 
     OffscreenContext context;
@@ -55,11 +68,14 @@ struct Film::Crew {
     TextPainter painter;
     std::optional<VideoRecorder> recorder;
     FilmOrder order;
-    double start = 0;  // of the first frame, ms
+    Bounds world;
+    double start = 0;       // of the first frame, ms
+    int frames = 0;         // so far
+    bool isLooked = false;  // the camera was placed by hand
 };
 
 Film::Film(const FilmOrder& order, Bounds world) {
-    if (!order.video.empty() || !order.lastPicture.empty())
+    if (!order.video.empty() || !order.lastPicture.empty() || !order.stills.empty())
         crew_ = std::make_unique<Crew>(order, world);
 }
 
@@ -72,6 +88,7 @@ Film::~Film() {
 void Film::look(const Camera& camera, DrawStyle style) {
     crew_->renderer.camera = camera;
     crew_->renderer.style = style;
+    crew_->isLooked = true;
 }
 
 void Film::capture(const std::vector<Vec3>& positions, const std::vector<float>& radii,
@@ -91,14 +108,6 @@ void Film::captureFromBuffer(float largestRadius, const std::vector<Vec3>& color
 SphereRenderer& Film::renderer() {
     crew_->context.makeCurrent();
     return crew_->renderer;
-}
-
-void Film::walkAround(float degrees) {
-    Camera& camera = crew_->renderer.camera;
-    const float angle = degrees * 3.14159265f / 180.0f;
-    const Vec3 arm = camera.eye - camera.target;
-    camera.eye = camera.target + Vec3{std::cos(angle) * arm.x + std::sin(angle) * arm.z, arm.y,
-                                      std::cos(angle) * arm.z - std::sin(angle) * arm.x};
 }
 
 void Film::finish() {

@@ -9,9 +9,10 @@ struct Film::Crew {};
 class SharedVertices {};
 
 Film::Film(const FilmOrder& order, Bounds) {
-    if (!order.video.empty() || !order.lastPicture.empty())
+    if (!order.video.empty() || !order.lastPicture.empty() || !order.stills.empty())
         throw InputError(
-            "this build has no graphics, so --out and --png cannot be used: install the packages "
+            "this build has no graphics, so --out, --png and --stills cannot be used: install the "
+            "packages "
             "named in docs/dependencies.md and configure again, or leave them "
             "away");
 }
@@ -22,7 +23,6 @@ void Film::capture(const std::vector<Vec3>&, const std::vector<float>&, const st
                    const std::string&) {}
 void Film::capture(RigidBodySystem&, const std::vector<float>&, const std::vector<Vec3>&,
                    const std::string&) {}
-void Film::walkAround(float) {}
 void Film::finish() {}
 
 }  // namespace ballpit

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <limits>
 
+#include "common/coloring.h"
 #include "common/csv.h"
 #include "common/error.h"
 
@@ -27,6 +28,16 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
     app.add_option("--seed", o.seed, "seed of the scene")->capture_default_str();
     app.add_option("--out", o.out, "video to write (.mp4, .mkv, .mov or .avi)");
     app.add_option("--png", o.png, "picture of the last frame to write");
+    app.add_option("--stills", o.stills,
+                   "folder for first.png and last.png: only these two frames are drawn");
+    app.add_option("--compression", o.compression,
+                   "of the video: 0 exact, 51 coarse; six more are half the size")
+        ->capture_default_str();
+    app.add_option("--yaw", o.shot.yaw,
+                   "camera: degrees around the world, 0 in front of it, 90 at its right");
+    app.add_option("--pitch", o.shot.pitch, "camera: degrees upwards, 0 level, 90 from above");
+    app.add_option("--zoom", o.shot.zoom, "camera: 2 is half as far away")->capture_default_str();
+    app.add_option("--orbit", o.shot.orbit, "camera: degrees a second around the world");
     app.add_option("--width", o.width, "pixels of a frame, even")->capture_default_str();
     app.add_option("--height", o.height, "pixels of a frame, even")->capture_default_str();
     app.add_flag("--json", o.json, "print what was found as JSON");
@@ -61,7 +72,13 @@ void addSimulationOptions(CLI::App& app, Options& o) {
     app.add_option("--restitution", o.restitution, "for all balls: 0 dead stop, 1 elastic");
     app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
     app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
+    app.add_option("--color", o.color,
+                   "what colours tell: body, speed, contacts, cell or memory (their order there)")
+        ->capture_default_str();
     app.add_option("--save", o.saveFile, "CSV to write the final balls to");
+    app.add_flag("--time", o.time,
+                 "only measure a step of a pile, of " + std::to_string(o.timedCount) +
+                     " balls unless --count says otherwise");
     app.add_flag("--view", o.view,
                  "open a window (H shows its keys); it ends when you close it, or after --frames");
     app.add_flag("--ledger", o.ledger, "draw the figures on recorded frames");
@@ -147,6 +164,16 @@ void requireInRange(const Options& o) {
     for (const int size : {o.width, o.height})
         require(size >= 16 && size <= 8192 && size % 2 == 0,
                 "frame size " + std::to_string(size) + ": an even number from 16 to 8192");
+    require(o.compression >= 0 && o.compression <= 51,
+            "--compression " + std::to_string(o.compression) + ": 0 to 51");
+    require(o.shot.zoom > 0.0f && std::isfinite(o.shot.zoom), "--zoom: must be above 0");
+    for (const auto& angle : {o.shot.yaw, o.shot.pitch, o.shot.orbit})
+        if (angle) require(std::isfinite(*angle), "--yaw, --pitch, --orbit: finite degrees");
+    require(o.stills.empty() || (o.out.empty() && o.png.empty()),
+            "--stills draws two frames only: leave out --out and --png, or --stills");
+    require(o.stills.empty() || !o.endless,
+            "--stills wants the last frame, and a window has none: say how many with --frames");
+    coloringNamed(o.color);
     if (o.dt)
         require(*o.dt > 0 && *o.dt <= 1,
                 "--dt " + std::to_string(*o.dt) + ": must be above 0, at most 1 s");
@@ -156,11 +183,15 @@ void requireInRange(const Options& o) {
         require(fault.empty(), "--restitution: " + fault);
     }
     if (o.device == Device::cuda) require(cudaUsable(), "--device cuda: " + whyCudaIsUnusable());
-    for (const std::string& path : {o.out, o.png, o.saveFile})
+    const std::string still = o.stills.empty() ? "" : firstStill(o.stills);
+    for (const std::string& path : {o.out, o.png, o.saveFile, still})
         if (!path.empty()) requireWritable(path);
 }
 
 }  // namespace
+
+std::string firstStill(const std::string& folder) { return folder + "/first.png"; }
+std::string lastStill(const std::string& folder) { return folder + "/last.png"; }
 
 Scene sceneFor(const Options& o) {
     // With balls of the user's own, the scene still gives the world around them.

@@ -9,6 +9,7 @@
 #include "common/device.h"
 #include "common/response_method.h"
 #include "common/scene.h"
+#include "common/shot.h"
 
 namespace ballpit {
 
@@ -23,8 +24,14 @@ struct Options {
     std::string response = "mass-split";
     ResponseKnobs knobs;  ///< of the response
     std::optional<float> dt, gravity, damping, restitution, cellSize;
-    std::string out;                  ///< video to write; empty: none
-    std::string png;                  ///< picture of the last frame; empty: none
+    std::string out;       ///< video to write; empty: none
+    std::string png;       ///< picture of the last frame; empty: none
+    std::string stills;    ///< folder for the first and the last frame; empty: none
+    int compression = 20;  ///< of the video, 0 exact to 51 coarse
+    Shot shot;             ///< where the camera stands, how it moves
+    /// Frames in motion are wanted, more than one picture.
+    bool isFilmed() const { return !out.empty() || !stills.empty(); }
+    std::string color = "body";       ///< what a ball's colour tells (simulations)
     std::string spheresFile;          ///< CSV to start from instead of the scene's bodies
     std::string saveFile;             ///< CSV to write at the end
     int width = 1920, height = 1080;  ///< of frames, pixels
@@ -42,6 +49,10 @@ struct Options {
 /// The scene that the options describe: made by name or read from the CSV, then changed by the
 /// values that were given. InputError where that cannot be.
 Scene sceneFor(const Options& options);
+
+/// The two pictures that --stills FOLDER asks for.
+std::string firstStill(const std::string& folder);
+std::string lastStill(const std::string& folder);
 
 /// Everything a main needs: parses the command line on top of `defaults`, checks the output paths,
 /// calls `run`, and turns errors into one line on stderr and an exit code (common/error.h).

@@ -185,7 +185,11 @@ namespace {
 constexpr SceneKind sceneKinds[] = {{"gravity_fall", 500, makeGravityFall},
                                     {"uniform", 500, makeUniform},
                                     {"gas", 500, makeGas},
-                                    {"pile", 500, makePile}};
+                                    {"pile", 500, makePile},
+                                    {"head_on", 10, makeHeadOn},
+                                    {"static_overlap", 512, makeStaticOverlap},
+                                    {"falling_balls", 9, makeFallingBalls},
+                                    {"break", 16, makeBreak}};
 
 /// InputError unless the host has room for the balls: asked before a scene of billions is begun.
 void requireRoomFor(int count) {

@@ -35,6 +35,22 @@ Scene makeGas(int count, std::uint64_t seed);
 /// pairs a ball from the first step on.
 Scene makePile(int count, std::uint64_t seed);
 
+// Scenes that show one thing each: equal balls (r 0.5 m, 1 kg), all lengths fixed.
+
+/// Without gravity. In each lane a ball of 3 m/s meets one at rest; restitution 0 in the first
+/// lane, 1 in the last. Two balls a lane.
+Scene makeHeadOn(int count, std::uint64_t seed);
+
+/// Without gravity: balls at rest at random places deep inside each other.
+Scene makeStaticOverlap(int count, std::uint64_t seed);
+
+/// Balls in a row, dropped from 6 m; restitution 0 for the first, 1 for the last.
+Scene makeFallingBalls(int count, std::uint64_t seed);
+
+/// Without gravity, on a table: an elastic ball of 6 m/s comes to a triangle of balls at rest that
+/// touch.
+Scene makeBreak(int count, std::uint64_t seed);
+
 /// Makes a scene of this many balls.
 using SceneMaker = Scene (*)(int count, std::uint64_t seed);
 

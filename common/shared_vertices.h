@@ -16,8 +16,8 @@ class RigidBodySystem;
 class SharedVertices {
 public:
     /// `buffer`: an OpenGL buffer of at least 16 bytes a body. It must outlive this object, and the
-    /// context in which it was made must be current in every call. Without `mayShare` the way through
-    /// main memory is taken in any case, to compare.
+    /// context in which it was made must be current in every call. Without `mayShare` the way
+    /// through main memory is taken in any case, to compare.
     SharedVertices(RigidBodySystem& bodies, unsigned buffer, bool mayShare = true);
     ~SharedVertices();
     SharedVertices(const SharedVertices&) = delete;

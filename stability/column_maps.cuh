@@ -118,11 +118,12 @@ inline Map heavyMap(const MapOptions& options) {
                                            [](double) { return tallestOnFloorFeltOnce() - 1; }));
         else
             panel.lines.push_back(
-                lineOver(passes, "a step's passes shrink the error to a tenth", [](double rate) {
-                    // rate^passes = 1/10, rate = R / (1 + R): truth::heavyOnLightRate
-                    const double share = std::pow(0.1, frames / rate);
-                    return share / (1 - share);
-                }));
+                lineOver(passes, "from nothing, a step's passes shrink the error to a tenth",
+                         [](double rate) {
+                             // rate^passes = 1/10, rate = R / (1 + R): truth::heavyOnLightRate
+                             const double share = std::pow(0.1, frames / rate);
+                             return share / (1 - share);
+                         }));
         map.panels.push_back(panel);
     }
     return map;

@@ -49,11 +49,12 @@ inline Outcome gasCell(const Gas& gas, double collisions, ResponseMethod method,
             if (energy > 1.5 * start) return {Verdict::energy, energy / start - 1};
         }
         const Spheres end = trial.state();
+        const double energy = kineticEnergyOf(end);
         const double expected = gas.restitution < 1 ? trueEnergy(scene, seconds) : start;
-        const double error = kineticEnergyOf(end) / expected - 1;
+        const double error = energy / expected - 1;
         if (lossesOf(end, scene.bounds).lost > 0) return {Verdict::lost, error};
-        if (error > gasTolerance) return {Verdict::energy, error};
-        return {error < -gasTolerance ? Verdict::inaccurate : Verdict::ok, error};
+        if (energy > (1 + gasTolerance) * start) return {Verdict::energy, error};
+        return {std::abs(error) > gasTolerance ? Verdict::inaccurate : Verdict::ok, error};
     });
 }
 

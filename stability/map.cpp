@@ -12,17 +12,6 @@ const char* name(Verdict verdict) {
     return names[static_cast<int>(verdict)];
 }
 
-std::vector<double> ratioSteps(double first, double last, int count) {
-    std::vector<double> values;
-    for (int k = 0; k < count; ++k) {
-        const double exact = first * std::pow(last / first, double(k) / (count - 1));
-        // Two digits: a knob that a reader can type.
-        const double unit = std::pow(10.0, std::floor(std::log10(exact)) - 1);
-        values.push_back(std::round(exact / unit) * unit);
-    }
-    return values;
-}
-
 Line lineOver(const Axis& x, const std::string& label, const std::function<double(double)>& f) {
     constexpr int points = 60;
     Line line{label, {}};

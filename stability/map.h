@@ -57,9 +57,6 @@ struct MapOptions {
     bool coarse = false;  ///< few cells, small scenes: for a check that the boundaries are there
 };
 
-/// `count` values from `first` to `last` with the same ratio between neighbours.
-std::vector<double> ratioSteps(double first, double last, int count);
-
 /// The points (x, f(x)) for many x between the axis' ends, where f is a finite number.
 Line lineOver(const Axis& x, const std::string& label, const std::function<double(double)>& f);
 

@@ -1,6 +1,7 @@
 // Fills in a map, cell by cell, on all cores; and the table of all maps.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <iostream>
@@ -47,22 +48,27 @@ inline std::vector<CellPlace> placesOf(const Map& map) {
     return places;
 }
 
-/// A line for every tenth that is done.
+/// A line for every tenth that is done, but not more than one in two seconds.
 class CellCounter {
 public:
     CellCounter(const std::string& name, std::size_t cells) : name_(name), cells_(cells) {}
     void done() {
         ++done_;
-        if (done_ * 10 / cells_ == (done_ - 1) * 10 / cells_) return;
-        const double seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        const bool tenth = done_ * 10 / cells_ != (done_ - 1) * 10 / cells_;
+        if (!tenth || seconds() - shown_ < 2) return;
+        shown_ = seconds();
         std::fprintf(stderr, "%s: %zu of %zu cells, %.0f s\n", name_.c_str(), done_, cells_,
-                     seconds);
+                     shown_);
     }
 
 private:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
     std::string name_;
     std::size_t cells_, done_ = 0;
+    double shown_ = 0;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -75,10 +81,11 @@ inline std::optional<Outcomes> runMap(const Map& map, Device device) {
         outcomes.emplace_back(panel.x.values.size() * panel.y.values.size());
     CellCounter counter(map.name, places.size());
     std::exception_ptr error;
+    std::atomic<bool> failed = false;
     const int count = static_cast<int>(places.size());
 #pragma omp parallel for schedule(dynamic, 1) if (device == Device::cpu)
     for (int k = 0; k < count; ++k) {
-        if (StopRequest::received() || error) continue;
+        if (StopRequest::received() || failed) continue;
         const auto [p, x, y] = places[static_cast<std::size_t>(k)];
         const Panel& panel = map.panels[p];
         try {
@@ -87,6 +94,7 @@ inline std::optional<Outcomes> runMap(const Map& map, Device device) {
         } catch (...) {
 #pragma omp critical
             error = std::current_exception();
+            failed = true;
         }
 #pragma omp critical
         counter.done();

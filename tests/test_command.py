@@ -71,11 +71,33 @@ class BadOptions(Folder):
             with self.subTest(option=option, value=value):
                 self.refuses([word], option, value)
 
+    def test_wrong_cameras_colours_and_stills(self):
+        for words, *arguments in [
+                (["--zoom", "above 0"], "--zoom", "0"), (["finite"], "--orbit", "inf"),
+                (["--compression", "0 to 51"], "--compression", "52"),
+                (["colour by 'hue'", "body, speed"], "--color", "hue"),
+                (["scene 'snow'", "head_on"], "--scene", "snow"),
+                (["--stills", "leave out"], "--stills", ".", "--out", "a.mp4"),
+                (["nowhere"], "--stills", "nowhere")]:
+            with self.subTest(arguments=arguments):
+                self.refuses(words, *arguments)
+
     def test_not_a_number(self):
         self.refuses(["--count"], "--count", "many")
 
     def test_unknown_scene(self):
         self.refuses(["gravity_fal", "known scenes"], "--scene", "gravity_fal")
+
+    def test_unknown_response_names_the_known_ones(self):
+        self.refuses(["gauss", "mass-split", "small-steps", "penalty"], "--response", "gauss")
+
+    def test_knob_that_the_response_does_not_have(self):
+        self.refuses(["substeps 4", "coloured", "small-steps"],
+                     "--response", "coloured", "--substeps", "4")
+
+    def test_restitution_that_springs_cannot_give(self):
+        self.refuses(["restitution 0", "penalty", "small-steps"],
+                     "--response", "penalty", "--restitution", "0")
 
     def test_cell_smaller_than_a_ball_names_the_right_size(self):
         self.refuses(["cell size 0.5", "at least"], "--cell-size", "0.5")
@@ -103,6 +125,11 @@ class BadOptions(Folder):
         self.refuses(["OpenGL" if self.has_graphics() else "no graphics"], "--png", "shot.png",
                      "--frames", "1", __EGL_VENDOR_LIBRARY_FILENAMES="/nowhere.json",
                      __EGL_VENDOR_LIBRARY_DIRS="/nowhere")
+
+    def test_a_window_without_a_display(self):
+        for display in ("", ":4711"):
+            self.refuses([f"display '{display}'", "--out"] if self.has_graphics() else
+                         ["no graphics"], "--view", DISPLAY=display)
 
     def test_bench_refuses_an_unknown_scene_and_device(self):
         self.refuses(["known scenes"], "--scenes", "lava", program=BENCH)

@@ -7,11 +7,13 @@ import re
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tools"))
 
 from miniature import PIECE, PROJECT, Miniature, flat_png
-from workbook import lessons, markers
+from workbook import blocks, lessons, markers
+from workbook.chapters import Chapter
 from workbook.errors import ToolError
 
 
@@ -46,6 +48,17 @@ class Markers(unittest.TestCase):
         found = markers.student_holes(markers.starter(piece, solved={"beta.one"}))
         self.assertEqual(found["beta.two"][1], piece.holes[1].starter)
         self.assertEqual(found["beta.one"][1], piece.holes[0].solution)
+
+
+class Blocks(unittest.TestCase):
+    def test_a_summary_shows_neither_time_nor_machine(self):
+        printed = ("gravity_fall: 5 balls, 6 steps of 16.67 ms on cpu (AMD (TM), 2 threads)\n"
+                   "  time per step  0.1 ms\n  state hash     12ab\n")
+        with mock.patch.object(blocks.reference, "run", return_value=printed):
+            lines = blocks.summary_block(Chapter(10, "10_full_system"), ["--device", "cpu"])
+        self.assertEqual(lines, ["```console", "$ ./ballpit run 10 --device cpu",
+                                 "gravity_fall: 5 balls, 6 steps of 16.67 ms",
+                                 "  state hash     12ab", "```"])
 
 
 class Generating(Miniature):

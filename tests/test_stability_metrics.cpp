@@ -32,8 +32,7 @@ Spheres ballsWith(const std::vector<Vec3>& velocities) {
 TEST_CASE("overlaps of balls and walls add up as squares, in radii, a ball") {
     // 0.25 m between the first two; the third 0.125 m in the floor and in a side wall; the fourth
     // free. sqrt((1/16 + 2/64) / 4) / 0.5
-    const Spheres balls =
-        ballsAt({{0, 0, 0}, {0.75f, 0, 0}, {9.625f, -9.625f, 0}, {0, 5, 0}});
+    const Spheres balls = ballsAt({{0, 0, 0}, {0.75f, 0, 0}, {9.625f, -9.625f, 0}, {0, 5, 0}});
     const Overlap overlap = overlapOf(balls, world);
     CHECK(overlap.contacts == 1);
     CHECK(overlap.wallContacts == 2);
@@ -143,8 +142,7 @@ TEST_CASE("coordination counts two for every contact, and gaps up to the slack")
 
 TEST_CASE("balls that move with what gravity adds in a step have a noise of 1") {
     CHECK(velocityNoise(ballsWith({{0, -0.5f, 0}, {0, 0.5f, 0}}), 10, 0.05) == Approx(1.0));
-    CHECK(velocityNoise(ballsWith({{0, 0, 0}, {0, 0.5f, 0}}), 10, 0.05) ==
-          Approx(std::sqrt(0.5)));
+    CHECK(velocityNoise(ballsWith({{0, 0, 0}, {0, 0.5f, 0}}), 10, 0.05) == Approx(std::sqrt(0.5)));
 }
 
 TEST_CASE("two runs are compared by distance and by bits") {

@@ -25,7 +25,8 @@ Spheres afterOneStep(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("every scene of the catalogue is made by its name, twice the same, and can be simulated") {
+TEST_CASE(
+    "every scene of the catalogue is made by its name, twice the same, and can be simulated") {
     std::set<std::string> names;
     for (const Entry& entry : catalogue()) {
         CAPTURE(entry.name);

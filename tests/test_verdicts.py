@@ -62,6 +62,19 @@ class Verdicts(Workbook):
             "... and 2 more", "looks like: a cast", "wrong: c (cpu)", "1 of 3 checks passed",
             "./ballpit check 01 --case a --seed 1", "./ballpit explain a", "./ballpit hint 01"])
 
+    def test_a_chapter_left_out_of_a_build_without_graphics_says_so_in_one_line(self):
+        self.write("build/cpu-release/build.ninja", "")
+        self.write("build/cpu-release/bin/nothing", "")
+        self.write("build/cpu-release/left_out", "01\n")
+        for command in (["check", "01"], ["run", "01"], ["watch", "01"]):
+            self.refuses(["chapter 01 needs graphics", "docs/dependencies.md"], *command)
+        self.solve("02_second")
+        self.assertEqual(self.ballpit("check", "02", "--no-speed").returncode, 0)
+        proved = self.ballpit("prove")
+        self.assertIn("skipped: chapter 01 needs graphics", proved.stdout)
+        self.assertNotIn("  01 the starter", proved.stdout)
+        self.assertIn("  02 the starter", proved.stdout)
+
     def test_racy_and_cuda_error_have_their_order(self):
         racy, cuda = "{'state': 'racy', 'message': 'reversed'}", "{'state': 'cuda error'}"
         self.verdict("RACY", 14, ("a", racy), ("b", "{}"), words=["racy: a (cpu)", "reversed"])
@@ -139,6 +152,10 @@ class CompileErrors(Workbook):
                       + " " * 15 + "^\n", text)
         self.assertNotIn("echo", text)
         self.assertNotIn("another", text)
+
+    def test_a_path_may_be_told_from_the_build_folder(self):
+        text = self.error("../../chapters/01_first/first.cuh:6:12: error: expected ';'")
+        self.assertIn("\nchapters/01_first/first.cuh:6:12: expected ';'\n        return 0;\n", text)
 
     def test_an_error_inside_the_engine_leads_back_to_the_student(self):
         place = "{root}/chapters/01_first/first.cuh:5"

@@ -34,6 +34,11 @@ class Mine(Workbook):
         self.assertEqual(path.stat().st_mtime_ns, stamp)
         self.refuses(["unknown chapter '7'"], "check", "02", "--mine", "7")
 
+    def test_all_leaves_out_later_chapters(self):
+        self.ballpit("check", "01", "--mine", "all")
+        self.assertIn("/chapters/01_first/first.cuh", self.header("01", "01_first/first.cuh"))
+        self.assertIn("/solutions/02_second/second.cuh", self.header("01", "02_second/second.cuh"))
+
 
 class Progress(Workbook):
     def states(self):
@@ -73,13 +78,17 @@ class Running(Workbook):
                               "--reference")
         self.assertEqual(result.stdout.split(), [
             "program", "01_first_reference", "--count", "5", "--out",
-            f"{self.root}/videos/01_first.mp4", "--png", "a.png"])
+            f"{self.root}/build/01_first.mp4", "--png", "a.png"])
         self.assertEqual(self.ballpit("run", "01", "--", "--help").stdout.split()[1:],
                          ["01_first", "--help"])
 
     def test_demo_and_bench_pass_everything_on(self):
         self.assertEqual(self.ballpit("demo", "--out", "a.mp4", "--cpu", "--help").stdout.split(),
                          ["program", "gravity_fall", "--out", "a.mp4", "--help"])
+        self.assertEqual(self.ballpit("demo").stdout.split(),
+                         ["program", "gravity_fall", "--out", f"{self.root}/videos/gravity_fall.mp4"])
+        self.assertEqual(self.ballpit("demo", "--view").stdout.split(),
+                         ["program", "gravity_fall", "--view"])
         self.assertEqual(self.ballpit("bench", "--counts", "10", "20").stdout.split(),
                          ["program", "ballpit_bench", "--counts", "10", "20"])
 

@@ -73,9 +73,33 @@ def broad_phase(d):
             digits(d["milliseconds"] + d["milliseconds_to_build_the_grid"])]
 
 
+def whole_step(d):
+    naive_time = d.get("milliseconds,_naive")
+    return [d["touching_pairs"], digits(naive_time) if naive_time else "",
+            digits(d["milliseconds"]),
+            digits(naive_time / d["milliseconds"], 2) if naive_time else ""]
+
+
 def response(d):
     return [digits(d[name]) for name in ("in_place:_milliseconds", "atomic:_milliseconds",
                                          "milliseconds")]
+
+
+def recording(d):
+    return [digits(d[name]) for name in (
+        "draw,_ms_a_frame", "read_plainly,_ms_a_frame", "convert,_ms_a_frame",
+        "encode,_ms_a_frame", "one_after_the_other,_ms_a_frame",
+        "draw_and_read_plainly,_ms_a_frame", "draw_and_read_through_buffers,_ms_a_frame",
+        "recorder,_ms_a_frame", "recorder,_frames_a_second")]
+
+
+def rendering(d):
+    """Nets are not drawn beyond 20 000 balls."""
+    nets, by_size = (d.get(f"GLU_{kind}:_milliseconds") for kind in ("32_x_32", "by_size"))
+    squares = d["milliseconds"]
+    return [digits(nets) if nets else "", digits(by_size) if by_size else "", digits(squares),
+            digits(d["points:_milliseconds"]), digits(d["points_in_place:_milliseconds"]),
+            digits(nets / squares, 2) if nets else ""]
 
 
 TABLES = {
@@ -94,14 +118,28 @@ TABLES = {
             "grid and search, ms"], broad_phase),
     "07": ("07_impulse_response", {"cpu": [1000, 100000], "cuda": [1000, 100000, MILLION]},
            ["in place, ms", "atomic, ms", "gathered, ms"], response),
+    "08": ("08_sphere_rendering", {"cpu": [100, 500, 2000, 10000, 100000],
+                                   "cuda": [500, 10000, 100000, MILLION]},
+           ["GLU 32 x 32, ms", "GLU by size, ms", "squares, ms", "points, ms",
+            "points in place, ms", "GLU 32 x 32 / squares"], rendering),
+    "09": ("09_video_recording", {"cpu": [500, 10000], "cuda": []},
+           ["draw, ms", "read, ms", "convert, ms", "encode, ms", "one after the other, ms",
+            "draw and read, ms", "through buffers, ms", "recorder, ms", "frames a second"],
+           recording),
+    "10": ("10_full_system", {"cpu": [100, 1000, 3000, 10000, 100000, MILLION],
+                              "cuda": [100, 1000, 3000, 10000, 100000, MILLION, 8 * MILLION]},
+           ["pairs", "naive step, ms", "step with the grid, ms", "ratio"], whole_step),
 }
 
 
 def measured(program, device, count, threads):
     """What the program prints, with the median of the runs in each time."""
-    environment = {**os.environ, "OMP_PROC_BIND": "close", "OMP_PLACES": "cores"}
+    environment = dict(os.environ)
+    if program.parent / "09_video_recording_reference" != program:  # its encoder wants all cores
+        environment |= {"OMP_PROC_BIND": "close", "OMP_PLACES": "cores"}
     if threads:
         environment["OMP_NUM_THREADS"] = str(threads)
+        environment["LP_NUM_THREADS"] = str(threads)  # of Mesa, where it draws on the CPU
     command = [str(program), "--device", device, "--count", str(count), "--time", "--json"]
     runs = [json.loads(subprocess.run(command, env=environment, capture_output=True, text=True,
                                       check=True).stdout) for _ in range(RUNS)]
@@ -196,7 +234,8 @@ def main():
         if chapter == "11":
             compare_methods(build)
             continue
-        update(chapter, device, build, [""] if args.cuda else [1, 2])
+        one_way = args.cuda or chapter == "09"  # its threads are not OpenMP's
+        update(chapter, device, build, [""] if one_way else [1, 2])
 
 
 if __name__ == "__main__":

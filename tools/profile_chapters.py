@@ -106,6 +106,9 @@ PROFILES = {
                    [Row([f"`{name}`", "1000000"], name)
                     for name in ["collisionResponseRacy", "collisionResponseAtomic", "linkAndCount",
                                  "computePairImpulse", "collisionResponse"]])],
+    "10": [Profile("10_full_system", "--time", MILLION, ["kernel", "balls", "memory bus in use"],
+                   {BUS: percent}, [Row([f"`{name}`", "1000000"], name)
+                                    for name in ["integrateAndHash", "reorderAndFindCells"]])],
 }
 
 

@@ -3,7 +3,7 @@
 
 # Debian's and Ubuntu's names. What each is for: docs/dependencies.md.
 packages="g++ cmake ninja-build pkg-config python3 libcli11-dev nlohmann-json3-dev catch2
-libgl-dev libegl-dev libglu1-mesa-dev libglew-dev libgl1-mesa-dri
+libgl-dev libegl-dev libx11-dev libglu1-mesa-dev libglew-dev libgl1-mesa-dri
 freeglut3-dev libfreetype-dev fonts-dejavu-core
 libavcodec-dev libavformat-dev libswscale-dev"
 

@@ -6,6 +6,7 @@
 #include "common/findings.h"
 #include "common/launch.cuh"
 #include "common/metrics.h"
+#include "common/motion.h"
 #include "common/timing.h"
 
 using namespace ballpit;
@@ -42,7 +43,10 @@ int run(const Options& options) {
     if (options.time)
         findings.add("milliseconds", medianMilliseconds(options.device, 31, placeAll));
     findings.print(options.json);
-    showSpheres(options, world, spheres);
+    // In the film the balls appear in the order of their threads' numbers.
+    const std::vector<float> radii = spheres.radii;
+    const auto appear = [&](Spheres& shown, float share) { showFirst(shown, radii, share); };
+    showMotion(options, world, spheres, appear, 1.0f);
     return exitOk;
 }
 

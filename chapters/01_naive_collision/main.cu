@@ -1,43 +1,35 @@
 // Chapter 01's executable: balls scattered on a table; those that touch another are red.
-#include "01_naive_collision/naive_collision.cuh"
-
+#include "chapters/01_naive_collision/table.cuh"
 #include "common/film.h"
 #include "common/findings.h"
 #include "common/metrics.h"
-#include "common/random.h"
+#include "common/motion.h"
 #include "common/timing.h"
 
 using namespace ballpit;
 
 namespace {
 
+/// In the film the balls drift over the table and through each other.
+void show(const Options& options, Spheres spheres, TouchSearch& search) {
+    stir(spheres, {1.5f, 0, 1.5f}, options.seed + 1);
+    Bounds shown = tableFor(options.count);
+    shown.lower.y = -0.8f;
+    shown.upper.y = 0.4f * shown.upper.x;
+    showMotion(options, shown, spheres, [&](Spheres& balls, float share) {
+        if (share > 0) drift(balls, tableFor(options.count));
+        search.place(balls);
+        colorTouching(balls, search.pairs());
+    });
+}
+
 int run(const Options& options) {
     const int count = options.count;
-    // 5 m^2 of table for each ball, so that more balls are not more crowded. All centres at y = 0.
-    const float half = std::sqrt(5.0f * static_cast<float>(count)) / 2;
-    Random random(options.seed);
-    Spheres spheres;
-    std::vector<Vec4> balls;
-    for (int k = 0; k < count; ++k) {
-        const Vec3 place = random.uniformIn({{-half, 0, -half}, {half, 0, half}});
-        spheres.add(place, {}, random.uniform(0.3f, 0.8f), 1.0f, 1.0f);
-        balls.push_back(withW(place, spheres.radii.back()));
-    }
-    DeviceBuffer<Vec4> positions(options.device, balls.size(), "positions");
-    DeviceBuffer<Pair> pairs(options.device, 0, "pairs");
-    DeviceBuffer<std::uint32_t> found(options.device, 1, "found");
-    positions.upload(balls);
-    const auto search = [&] {
-        found.fill(0);
-        launchFindPairsNaive(options.device, count, positions.view(), pairs.view(), found.view());
-        return found.download()[0];
-    };
-    pairs.resize(search());  // a full list says how long it must be
-    std::vector<Pair> list = pairs.download(search());
-    std::sort(list.begin(), list.end());  // threads append in any order
+    const Spheres spheres = scatterBalls(count, options.seed);
+    TouchSearch search(options.device, spheres);
+    const std::vector<Pair> list = search.pairs();
     std::vector<std::uint32_t> touching;
     for (const auto [a, b] : list) touching.insert(touching.end(), {a, b});
-    for (const std::uint32_t ball : touching) spheres.colors.at(ball) = {0.86f, 0.15f, 0.13f};
 
     Findings findings("01 naive_collision");
     findings.add("count", std::int64_t{count});
@@ -47,9 +39,11 @@ int run(const Options& options) {
     findings.list("positions", spheres.positions);
     findings.list("radii", std::vector<double>(spheres.radii.begin(), spheres.radii.end()));
     findings.list("pairs", touching);
-    if (options.time) findings.add("milliseconds", medianMilliseconds(options.device, 7, search));
+    if (options.time)
+        findings.add("milliseconds",
+                     medianMilliseconds(options.device, 7, [&] { search.search(); }));
     findings.print(options.json);
-    showSpheres(options, {{-half, -0.8f, -half}, {half, 0.4f * half, half}}, spheres);
+    show(options, spheres, search);
     return 0;
 }
 

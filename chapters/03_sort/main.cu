@@ -2,7 +2,7 @@
 #include "03_sort/sort.cuh"
 
 #include "02_grid_hash/grid_hash.cuh"
-#include "common/film.h"
+#include "chapters/03_sort/passes.cuh"
 #include "common/findings.h"
 #include "common/metrics.h"
 #include "common/random.h"
@@ -29,29 +29,29 @@ static int run(const Options& o) {
     Scratch scratch(o.device, 0, "scratch");
     const auto unsort = [&] { grid.hashes.upload(hashes), grid.indices.upload(slots); };
     const auto sort = [&] { radixSort(o.device, bits, grid.hashes, grid.indices, space); };
-    const auto sortWithLibrary = [&] { sortByHash(o.device, o.count, grid, scratch); };
 
     Findings findings("03 sort");
     findings.add("count", std::int64_t{o.count});
     findings.add("key bits", std::int64_t{bits});
     findings.add("passes", std::int64_t{passes});
-    for (int pass = 0; pass <= passes && o.count <= 1000; ++pass) {
-        unsort();
-        radixSort(o.device, pass * digitBits, grid.hashes, grid.indices, space);
-        findings.list("keys " + std::to_string(pass), grid.hashes.download());
-        findings.list("slots " + std::to_string(pass), grid.indices.download());
-    }
+    const auto orderAfter = [&](int pass) {
+        unsort(), radixSort(o.device, pass * digitBits, grid.hashes, grid.indices, space);
+        return grid.indices.download();
+    };
+    for (int pass = 0; pass <= passes && o.count <= 1000; ++pass)
+        findings.list("slots " + std::to_string(pass), orderAfter(pass)),
+            findings.list("keys " + std::to_string(pass), grid.hashes.download());
     unsort(), sort();
     const std::vector<std::uint32_t> sorted = grid.indices.download();
     findings.add("state hash", hashText(wordHash(sorted)));
     const auto timeOf = [&](auto work) { return medianMilliseconds(o.device, 31, unsort, work); };
     if (o.time) findings.add("milliseconds", timeOf(sort));
-    if (o.time) findings.add("library milliseconds", timeOf(sortWithLibrary));
+    if (o.time)
+        findings.add("library milliseconds",
+                     timeOf([&] { sortByHash(o.device, o.count, grid, scratch); }));
     findings.print(o.json);
-    const std::size_t eighth = sorted.size() / 8 + 1;  // of the list gets a colour
-    for (std::size_t k = 0; k < sorted.size(); ++k)
-        spheres.colors[sorted[k] % sorted.size()] = paletteColor(k / eighth);
-    showSpheres(o, world, spheres);
+    colorEighths(spheres, sorted);
+    o.isFilmed() ? showPasses(o, hashes, passes, orderAfter) : showSpheres(o, world, spheres);
     return exitOk;
 }
 

@@ -1,6 +1,6 @@
 // Chapter 04's executable: what cell order in memory is worth to a search.
+#include "chapters/04_reorder/reading.cuh"
 #include "chapters/04_reorder/two_orders.cuh"
-#include "common/film.h"
 #include "common/findings.h"
 #include "common/metrics.h"
 #include "common/timing.h"
@@ -29,26 +29,22 @@ int run(const Options& options) {
     const Scene scene = makeScene("uniform", options.count, options.seed);
     TwoOrders orders(options.device, scene);
     const bool same = orders.touching(asTheyCame) == orders.touching(byCell);
-    Spheres balls = orders.download(byCell);
-    const std::vector<std::uint32_t> ids = orders.ids(byCell);
-    for (std::size_t slot = 0; slot < ids.size(); ++slot) {
-        const float share = static_cast<float>(slot) / static_cast<float>(options.count);
-        balls.colors.at(ids[slot]) = {0.1f + 0.85f * share, 0.45f, 0.9f - 0.8f * share};
-    }
+    const Spheres balls = orders.download(byCell);
+    const std::vector<std::uint32_t> before = orders.ids(asTheyCame), after = orders.ids(byCell);
     Findings findings("04 reorder");
     findings.add("count", std::int64_t{options.count});
-    findings.add("step in memory before m", meanStep(balls.positions, orders.ids(asTheyCame)));
-    findings.add("step in memory after m", meanStep(balls.positions, ids));
+    findings.add("step in memory before m", meanStep(balls.positions, before));
+    findings.add("step in memory after m", meanStep(balls.positions, after));
     findings.add("bytes moved for a ball", static_cast<std::int64_t>(bytesMovedPerBody()));
     findings.add("same touching balls", same ? "yes" : "NO");
-    findings.add("order hash", hashText(wordHash(ids)));
+    findings.add("order hash", hashText(wordHash(after)));
     findings.add("state hash", hashText(stateHash(balls)));
     findings.list("positions", balls.positions);
-    findings.list("ids", ids);
+    findings.list("ids", after);
     findings.list("cells", orders.cells());
     if (options.time) addTimes(findings, options, orders);
     findings.print(options.json);
-    showSpheres(options, scene.bounds, balls);
+    showReading(options, scene.bounds, balls, before, after);
     return exitOk;
 }
 

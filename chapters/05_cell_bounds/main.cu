@@ -1,6 +1,5 @@
 // Chapter 05's executable: which cells hold balls, and who is around a ball?
-#include "chapters/05_cell_bounds/population.cuh"
-#include "common/film.h"
+#include "chapters/05_cell_bounds/crowd.cuh"
 #include "common/findings.h"
 #include "common/metrics.h"
 #include "common/timing.h"
@@ -17,10 +16,10 @@ void addTimes(Findings& findings, const Options& options, Population& population
 }
 
 int run(const Options& options) {
-    Scene scene = makeScene("uniform", options.count, options.seed);
+    const Scene scene = makeScene("uniform", options.count, options.seed);
     Population population(options.device, scene);
     const auto starts = population.starts(), ends = population.ends();
-    const auto around = population.around<true>(), balls = population.balls();
+    const auto around = population.around<true>();
     std::vector<std::uint32_t> bounds(starts);
     bounds.insert(bounds.end(), ends.begin(), ends.end());
     std::int64_t occupied = 0, fullest = 0, sum = 0;
@@ -29,11 +28,7 @@ int run(const Options& options) {
         occupied += inside > 0;
         fullest = std::max(fullest, inside);
     }
-    for (std::size_t slot = 0; slot < around.size(); ++slot) {
-        sum += around[slot];
-        const float share = static_cast<float>(std::min(around[slot], 20u)) / 20.0f;
-        scene.spheres.colors.at(balls[slot]) = {0.1f + 0.85f * share, 0.45f, 0.9f - 0.8f * share};
-    }
+    for (const std::uint32_t balls : around) sum += balls;
     Findings findings("05 cell_bounds");
     findings.add("count", std::int64_t{options.count});
     findings.add("cells", static_cast<std::int64_t>(starts.size()));
@@ -47,7 +42,7 @@ int run(const Options& options) {
     findings.list("ends", ends);
     if (options.time) addTimes(findings, options, population);
     findings.print(options.json);
-    showSpheres(options, scene.bounds, scene.spheres);
+    showCrowd(options, scene);
     return exitOk;
 }
 

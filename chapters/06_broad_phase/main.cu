@@ -1,6 +1,5 @@
 // Chapter 06's executable: how much the search in the grid looks at, and what one ball sees of it.
-#include "chapters/06_broad_phase/search.cuh"
-#include "common/film.h"
+#include "chapters/06_broad_phase/seeker.cuh"
 #include "common/findings.h"
 #include "common/metrics.h"
 #include "common/timing.h"
@@ -42,7 +41,8 @@ int run(const Options& options) {
     if (options.time) addTimes(findings, options, world, search);
     findings.print(options.json);
     const World seen = search.seenBy(seeker, world);
-    showSpheres(options, seen.bounds, seen.spheres);
+    options.isFilmed() ? showSeeker(options, world)
+                       : showSpheres(options, seen.bounds, seen.spheres);
     return 0;
 }
 

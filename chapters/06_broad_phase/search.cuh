@@ -100,18 +100,24 @@ public:
         return slots;
     }
 
-    /// The neighbourhood of one ball: itself blue, what it compares itself with grey, its partners
-    /// among these red. Of all other balls, those near by are dots.
-    World seenBy(int seeker, const World& world) {
-        const std::vector<Vec3> places = inSlots(world.spheres.positions);
-        std::vector<Vec4> looks(places.size(), Vec4{0.25f, 0.25f, 0.28f, 0.06f});  // colour, radius
+    /// How one ball sees each slot, as colour and radius: itself blue, what it compares itself with
+    /// grey, its partners among these red, all others as dots.
+    std::vector<Vec4> looksFor(int seeker) {
+        const auto count = static_cast<std::size_t>(grid.count());
+        std::vector<Vec4> looks(count, Vec4{0.25f, 0.25f, 0.28f, 0.06f});
         for (const auto [begin, end] : rangesOf(seeker).rows)
             for (std::uint32_t j = begin; j < end; ++j) looks.at(j) = {0.66f, 0.67f, 0.7f, 0.5f};
         for (const auto [first, second] : pairs())
             if (first == static_cast<std::uint32_t>(seeker))
                 looks.at(second) = {0.86f, 0.15f, 0.13f, 0.5f};
         looks.at(static_cast<std::size_t>(seeker)) = {0.1f, 0.4f, 0.85f, 0.5f};
+        return looks;
+    }
 
+    /// The neighbourhood of one ball. Of the dots only those near by.
+    World seenBy(int seeker, const World& world) {
+        const std::vector<Vec3> places = inSlots(world.spheres.positions);
+        const std::vector<Vec4> looks = looksFor(seeker);
         const Vec3 middle = places.at(static_cast<std::size_t>(seeker)), reach{2.5f, 2.5f, 2.5f};
         World seen{{}, {middle - reach, middle + reach}};
         for (std::size_t k = 0; k < places.size(); ++k)

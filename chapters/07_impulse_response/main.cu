@@ -1,10 +1,8 @@
 // Chapter 07's executable: the same contacts, resolved by each version of the response.
-#include "07_impulse_response/atomic_response.cuh"
 #include "07_impulse_response/examples.cuh"
-#include "07_impulse_response/impulse_response.cuh"
-#include "common/film.h"
+#include "07_impulse_response/racy_response.cuh"
+#include "chapters/07_impulse_response/two_boxes.cuh"
 #include "common/findings.h"
-#include "common/host_pairs.h"
 #include "common/metrics.h"
 #include "common/timing.h"
 
@@ -51,7 +49,7 @@ static int run(const Options& o) {
     tell(findings, "atomic", o, AtomicResponse(o.device), many);
     tell(findings, "gathered", o, ImpulseResponse(o.device, balls, pairs), many);
     findings.print(o.json);
-    showSpheres(o, scene.bounds, many.balls);
+    o.isFilmed() ? showTwoBoxes(o) : showSpheres(o, scene.bounds, many.balls);
     return 0;
 }
 

@@ -2,10 +2,10 @@
 #include "08_sphere_rendering/ball_shapes.h"
 
 #include "08_sphere_rendering/ball_shaders.h"
-#include "08_sphere_rendering/detail.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 
 namespace ballpit {
@@ -74,37 +74,63 @@ bool BallPoints::isTooLarge(float pixelRadius) const {
 }
 
 std::vector<std::size_t> BallPoints::take(const Balls& balls, const Sight& sight) {
-    std::vector<std::size_t> large;
-    packed_.assign(balls.count(), Vec4{});  // radius 0: not drawn
+    const Vec3 forward = axesOf(sight.camera).forward;
+    float nearest = std::numeric_limits<float>::infinity(), largest = 0.0f;  // depth, radius
+    packed_.assign(balls.count(), Vec4{});                                   // radius 0: not drawn
     for (std::size_t i = 0; i < balls.count(); ++i) {
         if (!balls.canBeDrawn(i)) continue;
-        if (isTooLarge(pixelRadius(sight.camera, sight.height, balls.positions[i], balls.radii[i])))
-            large.push_back(i);
-        else
-            packed_[i] = withW(balls.positions[i], balls.radii[i]);
+        packed_[i] = withW(balls.positions[i], balls.radii[i]);
+        nearest = std::min(nearest, dot(balls.positions[i] - sight.camera.eye, forward));
+        largest = std::max(largest, balls.radii[i]);
     }
-    reserve(balls.count());
-    positionBuffer_.fill(packed_.data(), packed_.size() * sizeof(Vec4), GL_STREAM_DRAW);
-    setColors(balls.colors);
+    // Only if the largest ball at the nearest place would be too large must each be asked.
+    const Vec3 nearestPlace = sight.camera.eye + nearest * forward;
+    std::vector<std::size_t> large;
+    if (largest > 0.0f && isTooLarge(sight.pixelRadius(nearestPlace, largest)))
+        large = takeOutTooLarge(sight);
+    own_.count = balls.count();
+    own_.positionBuffer.fill(packed_.data(), packed_.size() * sizeof(Vec4), GL_STREAM_DRAW);
+    own_.setColors(balls.colors);
+    taken_ = &own_;
     return large;
 }
 
-GLuint BallPoints::reserve(std::size_t count) {
-    if (count != count_) positionBuffer_.fill(nullptr, count * sizeof(Vec4), GL_DYNAMIC_DRAW);
-    count_ = count;
-    return positionBuffer_.name();
+std::vector<std::size_t> BallPoints::takeOutTooLarge(const Sight& sight) {
+    std::vector<std::size_t> large;
+    for (std::size_t i = 0; i < packed_.size(); ++i) {
+        if (packed_[i].w <= 0.0f) continue;
+        if (!isTooLarge(sight.pixelRadius(xyz(packed_[i]), packed_[i].w))) continue;
+        large.push_back(i);
+        packed_[i] = {};
+    }
+    return large;
 }
 
-void BallPoints::setColors(std::span<const Vec3> colors) {
-    if (std::ranges::equal(colors, colors_)) return;
-    colors_.assign(colors.begin(), colors.end());
-    colorBuffer_.fill(colors_.data(), colors_.size() * sizeof(Vec3), GL_STATIC_DRAW);
+void BallPoints::takeOpenBuffer() {
+    if (open_.colors.size() != open_.count)
+        throw std::invalid_argument("setColors: one colour for each ball in the buffer is needed");
+    taken_ = &open_;
+}
+
+GLuint BallPoints::reserve(std::size_t count) {
+    if (count != open_.count)
+        open_.positionBuffer.fill(nullptr, count * sizeof(Vec4), GL_DYNAMIC_DRAW);
+    open_.count = count;
+    return open_.positionBuffer.name();
+}
+
+void BallPoints::setColors(std::span<const Vec3> colors) { open_.setColors(colors); }
+
+void BallPoints::Store::setColors(std::span<const Vec3> newColors) {
+    if (std::ranges::equal(newColors, colors)) return;
+    colors.assign(newColors.begin(), newColors.end());
+    colorBuffer.fill(colors.data(), colors.size() * sizeof(Vec3), GL_STATIC_DRAW);
 }
 
 std::vector<Vec4> BallPoints::fetch() const {
-    std::vector<Vec4> balls(count_);
-    positionBuffer_.bind();
-    glGetBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(count_ * sizeof(Vec4)),
+    std::vector<Vec4> balls(open_.count);
+    open_.positionBuffer.bind();
+    glGetBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(balls.size() * sizeof(Vec4)),
                        balls.data());
     glBindBuffer(GL_ARRAY_BUFFER, 0);
     return balls;
@@ -119,13 +145,11 @@ void BallPoints::draw(const Sight& sight) const {
 }
 
 void BallPoints::drawSquares() const {
-    if (colors_.size() != count_)
-        throw std::invalid_argument("setColors: one colour for each ball in the buffer is needed");
     glEnable(GL_VERTEX_PROGRAM_POINT_SIZE);
     glEnable(GL_POINT_SPRITE);
-    positionBuffer_.attribute(0, 4, 0, sizeof(Vec4));
-    colorBuffer_.attribute(1, 3, 0, sizeof(Vec3));
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count_));
+    taken_->positionBuffer.attribute(0, 4, 0, sizeof(Vec4));
+    taken_->colorBuffer.attribute(1, 3, 0, sizeof(Vec3));
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(taken_->count));
     disableAttributes();
     glDisable(GL_POINT_SPRITE);
     glDisable(GL_VERTEX_PROGRAM_POINT_SIZE);
@@ -145,8 +169,7 @@ void BallMeshes::draw(const Balls& balls, const Sight& sight, int slices, bool w
     if (wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     for (std::size_t i = 0; i < balls.count(); ++i) {
         if (!balls.canBeDrawn(i)) continue;
-        const float pixels =
-            pixelRadius(sight.camera, sight.height, balls.positions[i], balls.radii[i]);
+        const float pixels = sight.pixelRadius(balls.positions[i], balls.radii[i]);
         const Sphere& sphere = sphereOf(slices > 0 ? slices : rounded(slicesFor(pixels)));
         drawBall(sphere, balls.positions[i], balls.radii[i], balls.colors[i]);
     }

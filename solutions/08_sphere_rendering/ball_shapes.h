@@ -49,14 +49,17 @@ public:
     /// Takes the balls of a picture; leaves out those too large for a point and returns them.
     std::vector<std::size_t> take(const Balls& balls, const Sight& sight);
 
-    /// Room for `count` balls; returns the buffer's OpenGL name.
+    /// Takes what lies in the open buffer. std::invalid_argument without a colour for each ball.
+    void takeOpenBuffer();
+
+    /// The open buffer, which others fill: room for `count` balls; its OpenGL name. Only another
+    /// count gives it other memory.
     GLuint reserve(std::size_t count);
     void setColors(std::span<const Vec3> colors);
-    std::size_t count() const { return count_; }
 
-    /// What is in the buffer, fetched from the graphics card.
+    /// What is in the open buffer, fetched from the graphics card.
     std::vector<Vec4> fetch() const;
-    const std::vector<Vec3>& colors() const { return colors_; }
+    const std::vector<Vec3>& colors() const { return open_.colors; }
 
     /// Is a ball of this radius in pixels too large for the driver's points?
     bool isTooLarge(float pixelRadius) const;
@@ -65,11 +68,20 @@ public:
     void drawSquares() const;
 
 private:
+    struct Store {
+        OpenGLBuffer positionBuffer, colorBuffer;
+        std::size_t count = 0;
+        std::vector<Vec3> colors;  // what is in the colour buffer
+
+        void setColors(std::span<const Vec3> newColors);
+    };
+
+    std::vector<std::size_t> takeOutTooLarge(const Sight& sight);
+
     OpenGLProgram program_;
-    OpenGLBuffer positionBuffer_, colorBuffer_;
-    std::size_t count_ = 0;
+    Store own_, open_;
+    const Store* taken_ = &own_;
     std::vector<Vec4> packed_;
-    std::vector<Vec3> colors_;
     float largestPoint_ = 1.0f;  // pixels across
 };
 

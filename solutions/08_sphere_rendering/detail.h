@@ -17,8 +17,8 @@ inline float pixelRadius(const Camera& camera, int height, Vec3 position, float 
     const float depth = dot(position - camera.eye, axesOf(camera).forward);
     const auto pixels = static_cast<float>(height);
     if (depth <= radius) return pixels;
-    //@hole detail.radius lines=2 "How many pixels high is the frame in metres, at that depth?"
-    //@starter TODO_HOLE("detail.radius");
+    //@hole size.radius lines=2 "How many pixels high is the frame in metres, at that depth?"
+    //@starter TODO_HOLE("size.radius");
     //@starter return radius;
     const float frameHeight = 2.0f * depth * halfHeightTangent(camera);  // m
     return std::min(radius / frameHeight * pixels, pixels);
@@ -30,8 +30,8 @@ inline float pixelRadius(const Camera& camera, int height, Vec3 position, float 
 inline int slicesFor(float pixelRadius) {
     constexpr float tolerance = 0.5f;  // pixels
     if (pixelRadius <= tolerance) return 6;
-    //@hole detail.slices lines=3 "Solve the error for the number of slices; round up to even"
-    //@starter TODO_HOLE("detail.slices");
+    //@hole size.slices lines=3 "Solve the error for the number of slices; round up to even"
+    //@starter TODO_HOLE("size.slices");
     //@starter return 6;
     const float halfAngle = std::acos(1.0f - tolerance / pixelRadius);
     const int slices = static_cast<int>(std::ceil(std::numbers::pi_v<float> / halfAngle));

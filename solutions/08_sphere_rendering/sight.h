@@ -1,6 +1,7 @@
 // What every pass of a picture must know about the eye.
 #pragma once
 
+#include "08_sphere_rendering/detail.h"
 #include "08_sphere_rendering/opengl_program.h"
 #include "08_sphere_rendering/view_matrices.h"
 
@@ -21,6 +22,11 @@ struct Sight {
         const float farDistance = length(camera.eye - center) + length(extent(world));
         projection = perspective(camera, static_cast<float>(width) / static_cast<float>(height),
                                  farDistance / 2000.0f, farDistance);
+    }
+
+    /// How large a ball appears in these frames.
+    float pixelRadius(Vec3 position, float radius) const {
+        return ballpit::pixelRadius(camera, height, position, radius);
     }
 
     void loadMatrices() const {

@@ -27,8 +27,8 @@ public:
 
     /// Draws it around the origin of the current matrix, with this radius in m.
     void draw(float radius) const {
-        //@hole sphere.draw lines=4 "Scale the unit sphere, call the list, leave no trace"
-        //@starter TODO_HOLE("sphere.draw");
+        //@hole net.draw lines=4 "Scale the unit sphere, call the list, leave no trace"
+        //@starter TODO_HOLE("net.draw");
         glPushMatrix();
         glScalef(radius, radius, radius);
         glCallList(list_);
@@ -39,8 +39,8 @@ public:
 private:
     void compile(int slices, int stacks) const {
         GLUquadric* quadric = gluNewQuadric();
-        //@hole sphere.compile lines=3 "Record a sphere of radius 1 in the list"
-        //@starter TODO_HOLE("sphere.compile");
+        //@hole net.compile lines=3 "Record a sphere of radius 1 in the list"
+        //@starter TODO_HOLE("net.compile");
         //@starter glNewList(list_, GL_COMPILE);
         //@starter glEndList();
         glNewList(list_, GL_COMPILE);
@@ -55,8 +55,8 @@ private:
 
 /// One ball of the world: its place and colour, and the sphere that is drawn there.
 inline void drawBall(const Sphere& sphere, Vec3 position, float radius, Vec3 color) {
-    //@hole sphere.place lines=5 "Move the origin to the ball, choose the colour, draw"
-    //@starter TODO_HOLE("sphere.place");
+    //@hole net.place lines=5 "Move the origin to the ball, choose the colour, draw"
+    //@starter TODO_HOLE("net.place");
     glPushMatrix();
     glTranslatef(position.x, position.y, position.z);
     glColor3f(color.x, color.y, color.z);

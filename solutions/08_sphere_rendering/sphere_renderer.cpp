@@ -2,7 +2,6 @@
 #include "08_sphere_rendering/sphere_renderer.h"
 
 #include "08_sphere_rendering/ball_shapes.h"
-#include "08_sphere_rendering/detail.h"
 #include "08_sphere_rendering/render_target.h"
 #include "08_sphere_rendering/stage.h"
 
@@ -42,7 +41,7 @@ struct SphereRenderer::Parts {
     BallQuads quads;
     BallPoints points;
     BallMeshes meshes;
-    std::optional<RenderTarget> target;
+    std::unique_ptr<RenderTarget> target;
     std::optional<Sight> sight;  // of the picture being drawn
 };
 
@@ -56,10 +55,7 @@ SphereRenderer::~SphereRenderer() = default;
 
 void SphereRenderer::resize(int width, int height) {
     if (width == width_ && height == height_) return;
-    {
-        const RenderTarget trial(width, height);  // refused before anything is lost
-    }
-    parts_->target.emplace(width, height);
+    parts_->target = std::make_unique<RenderTarget>(width, height);  // or throws: all stays
     width_ = width;
     height_ = height;
 }
@@ -79,13 +75,7 @@ void SphereRenderer::draw(std::span<const Vec3> positions, std::span<const float
     const Balls balls{positions, radii, colors};
     parts_->sight.emplace(camera, world_, width_, height_);
     const BallShape shape = shapeFor(balls.count());
-    if (shape == BallShape::points) {
-        // What is too large for a point becomes a square; unsorted like the points.
-        const Chosen large(balls, parts_->points.take(balls, *parts_->sight));
-        parts_->quads.take(large.balls(), *parts_->sight, false);
-        drawPoints();
-        return;
-    }
+    if (shape == BallShape::points) return drawAsPoints(balls);
     parts_->quads.take(balls, *parts_->sight, true);
     if (style.world) parts_->stage.shade(parts_->quads);
     beginFrame();
@@ -110,13 +100,13 @@ void SphereRenderer::setColors(std::span<const Vec3> colors) { parts_->points.se
 
 void SphereRenderer::drawFromBuffer(float largestRadius) {
     parts_->sight.emplace(camera, world_, width_, height_);
-    // The largest that a ball can appear: at the corner of the world that is nearest to the eye.
-    const Vec3 forward = axesOf(camera).forward, center = 0.5f * (world_.lower + world_.upper);
-    const Vec3 half = 0.5f * extent(world_);
+    parts_->points.takeOpenBuffer();
+    // The largest that a ball can appear: at the end of the world that is nearest to the eye.
+    const Vec3 forward = axesOf(camera).forward, half = 0.5f * extent(world_);
     const float reach =
         half.x * std::abs(forward.x) + half.y * std::abs(forward.y) + half.z * std::abs(forward.z);
-    const float pixels = pixelRadius(camera, height_, center - reach * forward, largestRadius);
-    if (!parts_->points.isTooLarge(pixels)) {
+    const Vec3 nearEnd = 0.5f * (world_.lower + world_.upper) - reach * forward;
+    if (!parts_->points.isTooLarge(parts_->sight->pixelRadius(nearEnd, largestRadius))) {
         parts_->quads.take({}, *parts_->sight, false);
         return drawPoints();
     }
@@ -126,8 +116,14 @@ void SphereRenderer::drawFromBuffer(float largestRadius) {
         positions.push_back(xyz(ball));
         radii.push_back(ball.w);
     }
-    const std::vector<Vec3> colors = parts_->points.colors();
-    draw(positions, radii, colors);
+    drawAsPoints({positions, radii, parts_->points.colors()});
+}
+
+/// What is too large for a point becomes a square; unsorted like the points.
+void SphereRenderer::drawAsPoints(const Balls& balls) {
+    const Chosen large(balls, parts_->points.take(balls, *parts_->sight));
+    parts_->quads.take(large.balls(), *parts_->sight, false);
+    drawPoints();
 }
 
 /// Binds the frame and draws what lies behind the balls.
@@ -151,6 +147,8 @@ void SphereRenderer::endFrame() {
     if (style.world) parts_->stage.drawLines();
     glPopAttrib();
 }
+
+void SphereRenderer::finish() { glFinish(); }
 
 Frame SphereRenderer::read() {
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);

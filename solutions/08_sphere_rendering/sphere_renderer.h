@@ -26,6 +26,8 @@ struct DrawStyle {
     int slices = 0;  ///< of GLU spheres, with half as many stacks; 0: as many as their size needs
 };
 
+struct Balls;
+
 /// Draws offscreen, into a framebuffer object of its own. Needs an OpenGL context that is current
 /// as long as the renderer lives. Throws InputError if the driver refuses the frame's size.
 class SphereRenderer {
@@ -48,19 +50,22 @@ public:
 
     /// For balls that are on the graphics card already: the OpenGL name of a buffer with room for
     /// `count` balls, four floats each: x, y, z and radius in m. Fill it (glBufferSubData, or a
-    /// CUDA kernel), then call drawFromBuffer. The name may change with the count. `draw` uses the
-    /// same buffer.
+    /// CUDA kernel), then call drawFromBuffer. The renderer only reads it. It keeps its memory as
+    /// long as the count stays the same.
     unsigned positionBuffer(std::size_t count);
 
     /// The colours of the balls in that buffer. Uploaded only when they have changed.
     void setColors(std::span<const Vec3> colors);
 
     /// Draws the balls in the buffer as points. No ball may be larger than `largestRadius`: if the
-    /// driver's points are too small for it, the balls are fetched and go the way of `draw`.
+    /// driver's points are too small for it, the balls are fetched first, which is slow.
     void drawFromBuffer(float largestRadius);
 
     /// The picture drawn last.
     Frame read();
+
+    /// Waits until it is drawn: OpenGL draws while the program goes on.
+    void finish();
 
     /// OpenGL's name of the framebuffer object that holds it, to read or to copy from.
     unsigned framebuffer() const;
@@ -77,6 +82,7 @@ private:
     BallShape shapeFor(std::size_t count) const;
     void beginFrame();
     void endFrame();
+    void drawAsPoints(const Balls& balls);
     void drawPoints();
 
     Bounds world_;

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "common/libav.h"
 //@starter #include "common/hole.cuh"
+#include "common/libav.h"
 
 namespace ballpit {
 

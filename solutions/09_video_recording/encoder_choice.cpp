@@ -17,11 +17,12 @@ using libav::Owned;
 
 namespace {
 
-void chooseQuality(AVCodecContext& encoder) {
+void chooseQuality(AVCodecContext& encoder, int compression) {
     if (std::string(encoder.codec->name) == "libx264") {
         // 10 ms a frame at 1920x1080 with 500 balls on two cores; finer presets take longer.
-        av_opt_set(encoder.priv_data, "preset", "veryfast", 0);
-        av_opt_set(encoder.priv_data, "crf", "20", 0);
+        const char* preset = compression > usualCompression ? "slow" : "veryfast";
+        av_opt_set(encoder.priv_data, "preset", preset, 0);
+        av_opt_set(encoder.priv_data, "crf", std::to_string(compression).c_str(), 0);
     } else if (encoder.codec_id == AV_CODEC_ID_MPEG4) {
         encoder.flags |= AV_CODEC_FLAG_QSCALE;
         encoder.global_quality = 3 * FF_QP2LAMBDA;
@@ -41,7 +42,8 @@ bool isUsable(const AVCodec& codec) {
 
 /// An open encoder of that name; null if this machine has none that works.
 Owned<AVCodecContext> tryEncoder(const std::string& name, int width, int height,
-                                 int framesPerSecond, const AVOutputFormat& format) {
+                                 int framesPerSecond, const AVOutputFormat& format,
+                                 int compression) {
     const AVCodec* codec = avcodec_find_encoder_by_name(name.c_str());
     if (!codec) return nullptr;
     Owned<AVCodecContext> encoder(avcodec_alloc_context3(codec));
@@ -59,16 +61,18 @@ Owned<AVCodecContext> tryEncoder(const std::string& name, int width, int height,
     if (format.flags & AVFMT_GLOBALHEADER) encoder->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     // AVI stores no display times, so its frames must come in the order in which they are shown.
     if (std::string(format.name) == "avi") encoder->max_b_frames = 0;
-    chooseQuality(*encoder);
+    chooseQuality(*encoder, compression);
     return avcodec_open2(encoder.get(), codec, nullptr) >= 0 ? std::move(encoder) : nullptr;
 }
 
 }  // namespace
 
 Owned<AVCodecContext> openEncoder(const std::vector<std::string>& names, int width, int height,
-                                  int framesPerSecond, const AVOutputFormat& format) {
+                                  int framesPerSecond, const AVOutputFormat& format,
+                                  int compression) {
     for (const std::string& name : names)
-        if (auto encoder = tryEncoder(name, width, height, framesPerSecond, format)) return encoder;
+        if (auto encoder = tryEncoder(name, width, height, framesPerSecond, format, compression))
+            return encoder;
     throw InputError("video: no encoder here can record " + std::to_string(width) + "x" +
                      std::to_string(height) + "; install ffmpeg with libx264");
 }

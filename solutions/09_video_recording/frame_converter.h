@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "09_video_recording/pixels.h"
-#include "common/libav.h"
 //@starter #include "common/hole.cuh"
+#include "common/libav.h"
 
 namespace ballpit {
 
@@ -56,12 +56,21 @@ inline Rows rowsFromTop(const Pixels& pixels) {
     //@end
 }
 
+/// How libswscale names pixels of so many bytes, in the order in which the bytes lie in memory.
+inline AVPixelFormat formatOf(int channels) {
+    //@hole convert.format lines=1 "Red first, green, blue; with alpha behind them or without"
+    //@starter TODO_HOLE("convert.format");
+    //@starter return AV_PIX_FMT_GRAY8;
+    return channels == 4 ? AV_PIX_FMT_RGBA : AV_PIX_FMT_RGB24;
+    //@end
+}
+
 /// Converts pictures of one kind to YUV 4:2:0: one y for each pixel, one u and v for each block of
 /// two by two.
 class FrameConverter {
 public:
     FrameConverter(int width, int height, int channels)
-        : context_(makeContext(width, height, channels == 4 ? AV_PIX_FMT_RGBA : AV_PIX_FMT_RGB24)) {
+        : context_(makeContext(width, height, formatOf(channels))) {
         if (!context_) throw std::runtime_error("video: libswscale cannot convert RGB to YUV");
         setColors(*context_);
     }

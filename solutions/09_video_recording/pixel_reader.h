@@ -39,9 +39,8 @@ public:
     /// Begins to read what has been drawn. With pixel buffers it returns at once: the driver copies
     /// the frame when the drawing is done, and meanwhile the next frame can be drawn.
     void start() {
-        const auto turn = static_cast<std::size_t>(started_++ % 2);
-        if (way_ == Way::plain) return readInto(plain_[turn].bytes.data());
-        startInto(buffers_[turn]);
+        way_ == Way::plain ? startPlain() : startBuffer();
+        ++started_;
     }
 
     /// The frame that was started first and is still under way, as OpenGL has it: 4 bytes a pixel,
@@ -49,12 +48,12 @@ public:
     void fetch(Pixels& pixels) {
         pixels.resize(width_, height_, 4);
         pixels.bottomUp = true;
-        const auto turn = static_cast<std::size_t>(fetched_++ % 2);
-        if (way_ == Way::plain) return std::swap(pixels.bytes, plain_[turn].bytes);
-        fetchFrom(buffers_[turn], pixels);
+        way_ == Way::plain ? std::swap(pixels.bytes, plain_[fetched_ % 2].bytes)
+                           : fetchBuffer(pixels);
+        ++fetched_;
     }
 
-    int underWay() const { return started_ - fetched_; }
+    int underWay() const { return static_cast<int>(started_ - fetched_); }
 
 private:
     void makeBuffers() {
@@ -69,25 +68,27 @@ private:
         glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     }
 
-    /// Where a pixel buffer is bound, `target` counts from that buffer's beginning: null is its
-    /// first byte. Four bytes a pixel are a plain copy in every driver; three are slow.
-    void readInto(void* target) {
-        glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, target);
+    /// Four bytes a pixel are a plain copy in every driver; three are slow.
+    void startPlain() {
+        glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE,
+                     plain_[started_ % 2].bytes.data());
     }
 
-    void startInto(GLuint buffer) {
-        //@hole read.start lines=3 "Read the frame into this pixel buffer, then unbind it"
+    /// Frame 0 goes to buffer 0, frame 1 to buffer 1, frame 2 to buffer 0 again. While a buffer is
+    /// bound, glReadPixels writes into it, and its pointer counts from the buffer's first byte.
+    void startBuffer() {
+        //@hole read.start lines=3 "Bind the buffer whose turn it is, read into it, unbind it"
         //@starter TODO_HOLE("read.start");
-        glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
-        readInto(nullptr);
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[started_ % 2]);
+        glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
         glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
         //@end
     }
 
-    void fetchFrom(GLuint buffer, Pixels& pixels) {
-        //@hole read.fetch lines=5 "Map the pixel buffer, copy it, unmap and unbind it"
+    void fetchBuffer(Pixels& pixels) {
+        //@hole read.fetch lines=4 "Bind and map the buffer of the oldest frame, copy, unmap, unbind"
         //@starter TODO_HOLE("read.fetch");
-        glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, buffers_[fetched_ % 2]);
         copyMapped(glMapBuffer(GL_PIXEL_PACK_BUFFER, GL_READ_ONLY), pixels);
         glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
         glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
@@ -101,7 +102,7 @@ private:
 
     int width_, height_;
     Way way_;
-    int started_ = 0, fetched_ = 0;
+    unsigned started_ = 0, fetched_ = 0;  // frames, since the reader was made
     std::array<GLuint, 2> buffers_{};
     std::array<Pixels, 2> plain_;
 };

@@ -53,9 +53,9 @@ std::string checkedPath(std::string path, int width, int height, int framesPerSe
 
 struct VideoRecorder::Stream {
     Stream(std::string path, int width, int height, int framesPerSecond,
-           const std::vector<std::string>& names)
+           const std::vector<std::string>& names, int compression)
         : file(checkedPath(std::move(path), width, height, framesPerSecond)),
-          encoder(openEncoder(names, width, height, framesPerSecond, file.format())) {
+          encoder(openEncoder(names, width, height, framesPerSecond, file.format(), compression)) {
         file.open(*encoder);
         worker = std::thread([this] { work(); });
     }
@@ -129,9 +129,9 @@ void VideoRecorder::Stream::encodeAll() {
 }
 
 VideoRecorder::VideoRecorder(std::string path, int width, int height, int framesPerSecond,
-                             const std::vector<std::string>& encoders)
-    : stream_(std::make_unique<Stream>(std::move(path), width, height, framesPerSecond, encoders)) {
-}
+                             const std::vector<std::string>& encoders, int compression)
+    : stream_(std::make_unique<Stream>(std::move(path), width, height, framesPerSecond, encoders,
+                                       compression)) {}
 
 VideoRecorder::~VideoRecorder() {
     if (stream_->released) return;

@@ -23,7 +23,8 @@ public:
     /// that works here is used. Throws InputError, leaving no file behind, if any of this cannot
     /// be.
     VideoRecorder(std::string path, int width, int height, int framesPerSecond,
-                  const std::vector<std::string>& encoders = preferredEncoders());
+                  const std::vector<std::string>& encoders = preferredEncoders(),
+                  int compression = usualCompression);
 
     /// Without release(), after an exception: completes NAME.part.mp4, so that what was recorded
     /// can be played, but does not rename it. Never throws.

@@ -1,6 +1,7 @@
 // freeglut's window, its events, and one picture after the other in it.
 #include "10_full_system/opengl_visualizer.h"
 
+#include "common/display_loss.h"
 #include "common/error.h"
 #include "common/opengl.h"
 #include "common/text.h"
@@ -119,6 +120,7 @@ OpenGLVisualizer::Window::Window(Bounds worldBounds, int askedWidth, int askedHe
         destroy();
         throw;
     }
+    surviveDisplayLoss();
     listen();
     addOwnKeys();
 }
@@ -222,7 +224,6 @@ void OpenGLVisualizer::Window::wheel(int direction) {
 void OpenGLVisualizer::Window::resize(int newWidth, int newHeight) {
     width = std::max(1, newWidth);
     height = std::max(1, newHeight);
-    if (renderer) renderer->resize(width, height);
     needsRedraw = true;
 }
 
@@ -244,6 +245,7 @@ std::string OpenGLVisualizer::Window::keysText() const {
 void OpenGLVisualizer::Window::draw(std::span<const Vec3> positions, std::span<const float> radii,
                                     std::span<const Vec3> colors, const std::string& infoText) {
     glutSetWindow(id);
+    if (renderer->width() != width || renderer->height() != height) renderer->resize(width, height);
     renderer->camera = camera();
     renderer->style = style;
     renderer->draw(positions, radii, colors);
@@ -291,7 +293,9 @@ void OpenGLVisualizer::run() {
 }
 
 void OpenGLVisualizer::close() { window_->closing = true; }
-bool OpenGLVisualizer::isOpen() const { return window_->id != 0 && !window_->closing; }
+bool OpenGLVisualizer::isOpen() const {
+    return window_->id != 0 && !window_->closing && !displayLost();
+}
 bool OpenGLVisualizer::needsRedraw() const { return window_->needsRedraw; }
 Camera OpenGLVisualizer::camera() const { return window_->camera(); }
 const OrbitCamera& OpenGLVisualizer::orbit() const { return window_->orbit; }

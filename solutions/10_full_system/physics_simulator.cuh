@@ -11,14 +11,15 @@
 #include <map>
 #include <tuple>
 
-#include "10_full_system/step_rounds.cuh"
-#include "10_full_system/step_stages.cuh"
+#include "10_full_system/engine_stages.cuh"
+#include "10_full_system/one_step.cuh"
 #include "11_stability/substeps.cuh"
+//@starter #include "common/hole.cuh"
 #include "common/launch_recording.cuh"
 
 namespace ballpit {
 
-/// The whole engine. Its stages, with the bodies and all memory, are in StepStages; those of
+/// The whole engine. Its stages, with the bodies and all memory, are in EngineStages; those of
 /// substeps in SubstepStages.
 class PhysicsSimulator : public SubstepStages {
 public:
@@ -28,7 +29,10 @@ public:
     /// NotFiniteError naming the body, step and stage, with the state before this step kept.
     StepStats step() {
         const StepStats stats = attemptUntilComplete();
+        //@hole system.commit lines=1 "The copies in which the step ended become the state"
+        //@starter TODO_HOLE("system.commit");
         bodies_.commit(next_);
+        //@end
         response_->commit();
         ++stepsDone_;
         return stats;
@@ -113,17 +117,23 @@ private:
         for (;;) {
             const StepStatus status = attempt(rebuild);
             requireCountable(status);
+            //@hole system.grow lines=5 "More pairs than places? Tell how many, make room, try again"
+            //@starter TODO_HOLE("system.grow");
             if (status.pairsNeeded > pairs_.pairs.count()) {
                 stats.overflow = status.pairsNeeded - capacityBefore;
                 growPairList(status.pairsNeeded);
                 continue;
             }
+            //@end
             requireFinite(status, stepsDone_);
+            //@hole system.rebuild lines=5 "Stale grid? Try again with a grid in every round"
+            //@starter TODO_HOLE("system.rebuild");
             if (status.staleGrid && gridCanGoStale() && !rebuild) {
                 rebuild = true;
                 rebuildUntil_ = stepsDone_ + rebuildSteps;
                 continue;
             }
+            //@end
             stats.collisions = status.collisions;
             stats.outside = status.outside;
             break;
@@ -153,6 +163,7 @@ private:
         scratchReady_ = false;
     }
 
+    //@show attempt
     /// One try at a step. Recorded as a CUDA graph the second time the same launches are due (the
     /// first time scratch memory may have to be allocated).
     StepStatus attempt(bool rebuild) {
@@ -171,6 +182,7 @@ private:
         }
         return status_.wait();
     }
+    //@end
 
     /// How many steps the grid is built in every round after it once went stale: trying first
     /// without would nearly always be in vain then.

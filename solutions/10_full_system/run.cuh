@@ -21,7 +21,8 @@ public:
 
     void stepDone(Observation& now) {
         if (!film_.isRolling()) return;
-        film_.capture(now.bodies(), now.radii(), now.colors(ColorBy::body), textOver(now));
+        film_.capture(now.bodies(), now.radii(), now.colors(coloringNamed(options_.color)),
+                      textOver(now));
     }
 
     void finish() { film_.finish(); }

@@ -2,11 +2,11 @@
 #include "10_full_system/viewer.h"
 
 #include <atomic>
-#include <cmath>
-#include <cstdio>
 #include <exception>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
 
 #include "10_full_system/opengl_visualizer.h"
 #include "common/progress.h"
@@ -44,6 +44,7 @@ public:
                   "Ballpit: " + scene.name) {
         addKeys();
         tellView();
+        link_.remote.change([&](Wishes& w) { w.colorBy = coloringNamed(options.color); });
         window_.setRenderFunction([this] { showNewest(); });
     }
 
@@ -59,7 +60,7 @@ private:
             window_.addKey(letter, meaning, [this, change] { link_.remote.change(change); });
         };
         key('v', "start or stop recording", [](Wishes& w) { w.recording = !w.recording; });
-        key('l', "figures on or off", [](Wishes& w) { w.ledger = !w.ledger; });
+        key('l', "this text on or off", [](Wishes& w) { w.ledger = !w.ledger; });
         key('c', "next colouring: speed, contacts, cell...",
             [](Wishes& w) { w.colorBy = nextColoring(w.colorBy); });
         key('n', "one step, then pause", [](Wishes& w) {
@@ -81,6 +82,7 @@ private:
 
     /// Called sixty times a second.
     void showNewest() {
+        report();
         if (ended_ || StopRequest::received()) return window_.close();
         const bool isNew = link_.snapshots.take(shown_);
         const bool viewChanged = window_.needsRedraw();
@@ -89,13 +91,12 @@ private:
         if (nothingYet || (!isNew && !viewChanged)) return;
         rate_.frameShown();
         window_.render(shown_.positions, radii_, shown_.colors, textOver());
-        if (options_.reportState) reportState();
+        if (options_.reportState) report_ = stateLine();
     }
 
     std::string textOver() const {
-        std::string text;
-        if (link_.remote.wishes().ledger) text = ledgerText(shown_.ledger, true, rate_.perSecond());
-        if (!text.empty()) text += '\n';
+        if (!link_.remote.wishes().ledger) return {};
+        std::string text = ledgerText(shown_.ledger, true, rate_.perSecond()) + '\n';
         if (shown_.paused) text += "PAUSED (Space goes on, N makes a step)\n";
         if (shown_.colorBy != ColorBy::body)
             text += std::string("colour by ") + name(shown_.colorBy) + '\n';
@@ -103,25 +104,36 @@ private:
         return text + "H shows the keys\n";
     }
 
-    /// For tests: what is on the screen now, as a line of JSON.
-    void reportState() const {
-        const OrbitCamera& orbit = window_.orbit();
-        const MeasuredFigures& figures = shown_.ledger.figures;
-        const bool measured = figures.step == shown_.ledger.step;
-        std::printf(
-            "{\"step\": %ld, \"hash\": \"%s\", \"paused\": %s, \"color\": \"%s\", "
-            "\"wireframe\": %s, \"grid\": %s, \"keys\": %s, \"ledger\": %s, \"recording\": \"%s\", "
-            "\"width\": %d, \"height\": %d, \"yaw\": %.9g, \"pitch\": %.9g, \"distance\": %.9g, "
-            "\"target\": [%.9g, %.9g, %.9g]}\n",
-            shown_.ledger.step, measured ? hashText(figures.hash).c_str() : "",
-            truth(shown_.paused), name(shown_.colorBy), truth(window_.style().wireframe),
-            truth(window_.style().floorGrid), truth(window_.showsKeys()),
-            truth(link_.remote.wishes().ledger), shown_.recording.c_str(), window_.width(),
-            window_.height(), orbit.yaw, orbit.pitch, orbit.distance, orbit.target.x,
-            orbit.target.y, orbit.target.z);
-        std::fflush(stdout);
+    /// For tests: tells what is on the screen, once freeglut has sent the last picture on its way:
+    /// after the next look at the events.
+    void report() {
+        if (!report_.empty()) std::cout << report_ << std::endl;
+        report_.clear();
     }
-    static const char* truth(bool value) { return value ? "true" : "false"; }
+
+    /// What was drawn, as JSON.
+    std::string stateLine() const {
+        const OrbitCamera& orbit = window_.orbit();
+        const Ledger& ledger = shown_.ledger;
+        const bool measured = ledger.figures.step == ledger.step;
+        const nlohmann::json state{{"step", ledger.step},
+                                   {"hash", measured ? hashText(ledger.figures.hash) : ""},
+                                   {"paused", shown_.paused},
+                                   {"color", name(shown_.colorBy)},
+                                   {"wireframe", window_.style().wireframe},
+                                   {"grid", window_.style().floorGrid},
+                                   {"keys", window_.showsKeys()},
+                                   {"ledger", link_.remote.wishes().ledger},
+                                   {"recording", shown_.recording},
+                                   {"message", shown_.message},
+                                   {"width", window_.width()},
+                                   {"height", window_.height()},
+                                   {"yaw", orbit.yaw},
+                                   {"pitch", orbit.pitch},
+                                   {"distance", orbit.distance},
+                                   {"target", {orbit.target.x, orbit.target.y, orbit.target.z}}};
+        return state.dump();
+    }
 
     const Options& options_;
     ViewerLink& link_;
@@ -129,6 +141,7 @@ private:
     OpenGLVisualizer window_;
     Snapshot shown_;
     FrameRate rate_;
+    std::string report_;
     std::atomic<bool> ended_ = false;
 };
 

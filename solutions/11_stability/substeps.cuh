@@ -1,22 +1,22 @@
 // Chapter 11: a step of several substeps on one list of pairs: its stages, and their sequence.
 #pragma once
 
-#include "10_full_system/step_rounds.cuh"
+#include "10_full_system/one_step.cuh"
 #include "11_stability/reach.cuh"
 
 namespace ballpit {
 
-class SubstepStages : public StepStages {
+class SubstepStages : public EngineStages {
 public:
     explicit SubstepStages(const SimulatorSettings& settings)
-        : StepStages(settings),
+        : EngineStages(settings),
           grown_(settings.device, movesInSubsteps() ? static_cast<std::size_t>(count_) : 0,
                  "ballsWithReach") {}
 
     /// True if the response wants a step of substeps, not of rounds.
     bool movesInSubsteps() const { return response_->stepKind() == StepKind::substeps; }
 
-    std::size_t bytes() const { return StepStages::bytes() + grown_.bytes(); }
+    std::size_t bytes() const { return EngineStages::bytes() + grown_.bytes(); }
 
     /// Moves the bodies freely for a substep, to others or where they are; walls are the
     /// response's. Hashes them as well, in case the grid is built next.
@@ -86,7 +86,8 @@ inline Copies enqueueSubsteps(SubstepStages& stages, Copies from, bool rebuild) 
     stages.beginReport();
     Copies now = from;
     for (int substep = 0; substep < substeps; ++substep) {
-        const Copies moved{substep == 0 ? following(from.moving, 1) : now.moving, now.fixed};
+        const Copies moved{substep == 0 ? otherWorkingCopy(from.moving, from.moving) : now.moving,
+                           now.fixed};
         stages.moveFreely(now, moved);
         now = moved;
         const bool newPairs = substep == 0 || rebuild;

@@ -36,13 +36,24 @@ endfunction()
 
 # NN_name and check_NN from the student's piece, and both again from the solution. STUDIO: the piece
 # is a part of the studio, so the student's programs and both checks get a studio of their own.
+# GRAPHICS: a build without graphics leaves the chapter out, and says so in the file left_out.
+# PRODUCT name: the solution's program is called so, NN_name_reference is another name for it, and
+# both programs have the window as well, the student's with the student's own studio.
+file(WRITE ${PROJECT_BINARY_DIR}/left_out "")
 function(ballpit_chapter folder)
-    cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO" "" "")
+    cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO;GRAPHICS" "PRODUCT" "")
     string(SUBSTRING ${folder} 0 2 label)
+    if(chapter_GRAPHICS AND NOT BALLPIT_WITH_GRAPHICS)
+        file(APPEND ${PROJECT_BINARY_DIR}/left_out "${label}\n")
+        return()
+    endif()
     ballpit_forward_pieces(${label})
     foreach(variant "" "_reference")
         set(main ${folder}${variant})
         set(check check_${label}${variant})
+        if(variant AND chapter_PRODUCT)
+            set(main ${chapter_PRODUCT})
+        endif()
         add_executable(${main} chapters/${folder}/main.cu)
         add_executable(${check} tests/checks/check_${label}.cu)
         if(variant)
@@ -56,12 +67,22 @@ function(ballpit_chapter folder)
         if(chapter_STUDIO)
             ballpit_studio(${check})
         endif()
-        if(chapter_STUDIO AND NOT variant)
+        if(chapter_PRODUCT AND variant)
+            target_link_libraries(${main} PRIVATE ballpit_viewer)
+        elseif(chapter_PRODUCT)
+            ballpit_studio(${main} VIEWER)
+        elseif(chapter_STUDIO AND NOT variant)
             ballpit_studio(${main})
         else()
             target_link_libraries(${main} PRIVATE ballpit_film)
         endif()
     endforeach()
+    if(chapter_PRODUCT)
+        add_custom_target(${folder}_reference ALL
+            ${CMAKE_COMMAND} -E create_symlink ${chapter_PRODUCT}
+                             ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${folder}_reference
+            DEPENDS ${chapter_PRODUCT})
+    endif()
     if(BUILD_TESTING)
         # The solution passes its own checks; the student's are no test of ours.
         add_test(NAME ${check} COMMAND ${check})

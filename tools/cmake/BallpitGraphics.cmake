@@ -1,8 +1,9 @@
-# Rendering, the window and recording, where OpenGL, EGL, GLU, GLEW, GLUT, FreeType and FFmpeg's
-# libraries are installed. Sets BALLPIT_WITH_GRAPHICS.
+# Rendering, the window and recording, where OpenGL, EGL, GLX, X11, GLU, GLEW, GLUT, FreeType and
+# FFmpeg's libraries are installed. Sets BALLPIT_WITH_GRAPHICS.
 set(BALLPIT_WITH_GRAPHICS OFF)
 if(NOT BALLPIT_GRAPHICS STREQUAL "OFF")
-    find_package(OpenGL COMPONENTS OpenGL EGL)
+    find_package(OpenGL COMPONENTS OpenGL EGL GLX)
+    find_package(X11)
     find_package(GLEW)
     find_package(GLUT)
     find_package(Freetype)
@@ -10,12 +11,12 @@ if(NOT BALLPIT_GRAPHICS STREQUAL "OFF")
     if(PkgConfig_FOUND)
         pkg_check_modules(FFMPEG IMPORTED_TARGET libavcodec libavformat libavutil libswscale)
     endif()
-    if(OpenGL_EGL_FOUND AND OPENGL_GLU_FOUND AND GLEW_FOUND AND GLUT_FOUND AND FREETYPE_FOUND
+    if(OpenGL_EGL_FOUND AND OpenGL_GLX_FOUND AND X11_FOUND AND OPENGL_GLU_FOUND AND GLEW_FOUND AND GLUT_FOUND AND FREETYPE_FOUND
        AND FFMPEG_FOUND)
         set(BALLPIT_WITH_GRAPHICS ON)
     elseif(BALLPIT_GRAPHICS STREQUAL "ON")
         message(FATAL_ERROR "Graphics were asked for, but a library is missing. Debian: apt-get "
-                            "install libgl-dev libegl-dev libglu1-mesa-dev libglew-dev "
+                            "install libgl-dev libegl-dev libx11-dev libglu1-mesa-dev libglew-dev "
                             "freeglut3-dev libfreetype-dev libavcodec-dev libavformat-dev "
                             "libswscale-dev pkg-config")
     endif()
@@ -26,17 +27,18 @@ endif()
 # solutions (ballpit_film), and with a student's files into the student's own programs.
 if(BALLPIT_WITH_GRAPHICS)
     message(STATUS "Graphics: yes")
-    add_library(ballpit_frame STATIC common/frame.cpp)
+    add_library(ballpit_frame STATIC common/frame.cpp common/video_player.cpp)
     target_link_libraries(ballpit_frame PUBLIC PkgConfig::FFMPEG)
     add_library(ballpit_gl STATIC
-        common/camera.cpp common/offscreen_context.cpp common/opengl.cpp common/shared_vertices.cu
-        common/text.cpp)
+        common/camera.cpp common/display_loss.cpp common/offscreen_context.cpp common/opengl.cpp
+        common/shared_vertices.cu common/text.cpp)
     target_link_libraries(ballpit_gl
-        PUBLIC ballpit_frame OpenGL::OpenGL OpenGL::EGL OpenGL::GLU GLEW::GLEW GLUT::GLUT
-               Freetype::Freetype)
+        PUBLIC ballpit_frame OpenGL::OpenGL OpenGL::EGL OpenGL::GLX OpenGL::GLU X11::X11 GLEW::GLEW
+               GLUT::GLUT Freetype::Freetype)
     ballpit_target(ballpit_gl)
     set(studio_sources
         common/film.cpp
+        common/shot.cpp
         common/film_of_bodies.cu
         solutions/08_sphere_rendering/ball_shapes.cpp
         solutions/08_sphere_rendering/opengl_program.cpp
@@ -57,7 +59,9 @@ else()
 endif()
 ballpit_target(ballpit_frame)
 list(APPEND studio_sources common/show_spheres.cpp)
-list(APPEND viewer_sources solutions/10_full_system/ledger.cpp)
+list(APPEND viewer_sources
+    solutions/10_full_system/ledger.cpp
+    solutions/10_full_system/user_recording.cpp)
 
 # Compiles the studio into a target, with the pieces that this target sees. VIEWER: with the window
 # and the ledger of the whole system.
@@ -66,6 +70,7 @@ function(ballpit_studio target)
     set(sources ${studio_sources})
     if(studio_VIEWER)
         list(APPEND sources ${viewer_sources})
+        target_include_directories(${target} SYSTEM PRIVATE ${JSON_INCLUDE_DIR})
     endif()
     foreach(source ${sources})
         target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/${source})
@@ -82,4 +87,5 @@ ballpit_target(ballpit_film)
 
 add_library(ballpit_viewer STATIC ${viewer_sources})
 target_link_libraries(ballpit_viewer PUBLIC ballpit_film)
+target_include_directories(ballpit_viewer SYSTEM PRIVATE ${JSON_INCLUDE_DIR})
 ballpit_target(ballpit_viewer)

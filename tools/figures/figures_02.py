@@ -4,7 +4,7 @@ import math
 
 from figure import BLUE, FAINT, Figure, GREEN, INK, ORANGE, PURPLE, RED, SKY
 
-LOWER, CELL, RESOLUTION = (-4, -3, -2), 2, (4, 3, 2)  # as in chapters/02_grid_hash/main.cu
+LOWER, CELL, RESOLUTION = (-4, -3, -2), 2, (4, 3, 2)  # as in chapters/02_grid_hash/cells.cuh
 SIDE = 92                                             # pixels of a cell
 LEFT, TOP, GAP = 60, 58, 150
 TINTS = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY)
@@ -64,7 +64,7 @@ def worked_example(run):
     positions, hashes = found["positions"], found["hashes"]
     columns, rows, layers = RESOLUTION
     if found["cells"] != columns * rows * layers:
-        raise ValueError("main.cu has another grid than this figure")
+        raise ValueError("cells.cuh has another grid than this figure")
     width = layer_left(layers - 1) + columns * SIDE + 40
     figure = Figure(width, TOP + rows * SIDE + 96,
                     "Two layers of 4 by 3 numbered cells with eight balls in them")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from workbook import markers, mutants, reference
 from workbook.chapters import ROOT
-from workbook.errors import ToolError
+from workbook.errors import InputError, ToolError
 
 OPENING = re.compile(r"<!-- gen (?P<kind>\w+)(?: +(?P<arguments>.*?))? *-->$")
 CLOSING = "<!-- /gen -->"
@@ -105,6 +105,14 @@ def run_block(chapter, arguments):
     return ["```console", f"$ {command}", *(line.rstrip() for line in output), "```"]
 
 
+def summary_block(chapter, arguments):
+    """A run of the whole system, without what differs from machine to machine."""
+    opening, command, *lines, closing = run_block(chapter, arguments)
+    lines = [re.sub(r" on \w+ \(.*\)$", "", line) for line in lines
+             if not line.startswith("  time per step")]
+    return [opening, command, *lines, closing]
+
+
 def csv_block(chapter, arguments):
     path = ROOT / "docs" / "results" / (arguments[0] if len(arguments) == 1 else "")
     if not path.is_file():
@@ -140,8 +148,19 @@ def changed_holes(chapter, mutant):
             if any(line in hole.solution for line in mutant.removed)]
 
 
+def clip_block(chapter, arguments):
+    from workbook import videos  # it needs this module
+    if len(arguments) > 1:
+        raise ToolError("expected: gen clip NAME, or gen clip for the chapter's own")
+    try:
+        recipe = videos.recipe_named(arguments[0] if arguments else chapter.folder)
+    except InputError as error:
+        raise ToolError(str(error)) from None
+    return videos.embedded(recipe, "../../videos/")
+
+
 KINDS = {"holes": holes_block, "checks": checks_block, "code": code_block, "run": run_block,
-         "csv": csv_block, "bugs": bugs_block}
+         "summary": summary_block, "csv": csv_block, "bugs": bugs_block, "clip": clip_block}
 
 
 def fresh_content(chapter, block, path):

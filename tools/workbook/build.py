@@ -110,6 +110,30 @@ def configure():
             fail(" ".join(command), LOGS / "configure.log")
 
 
+def left_out():
+    """The labels of the chapters that this build leaves out because it has no graphics."""
+    configure()
+    file = folder() / "left_out"
+    return set(file.read_text().split()) if file.exists() else set()
+
+
+def buildable(chapters):
+    """Those of these chapters that this build can build; a line says which are left out."""
+    missing = left_out()
+    for chapter in chapters:
+        if chapter.label in missing:
+            print(f"skipped: chapter {chapter.label} needs graphics, and this build has none")
+    return [chapter for chapter in chapters if chapter.label not in missing]
+
+
+def require(chapter):
+    """InputError if this build leaves the chapter out."""
+    if chapter.label in left_out():
+        raise InputError(f"chapter {chapter.label} needs graphics, and this build has none: install "
+                         "the packages of docs/dependencies.md (./ballpit test does that), delete "
+                         f"{folder().relative_to(ROOT)} and try again")
+
+
 def try_build(target):
     """Builds a target quietly. None, or the log of what failed."""
     configure()

@@ -1,5 +1,6 @@
 """The one compiler error that a student should read: the first that lies in a file of theirs."""
 
+import os
 import re
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -49,7 +50,10 @@ class CompileError:
 
 def _relative(file):
     path = Path(file)
-    path = path if path.is_absolute() else ROOT / path
+    if not path.is_absolute():
+        # ccache may tell paths as seen from the build's folder, build/PRESET.
+        start = ROOT / "build" / "PRESET" if path.parts[0] == ".." else ROOT
+        path = Path(os.path.normpath(start / path))
     return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
 
 

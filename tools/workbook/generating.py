@@ -4,7 +4,7 @@ import dataclasses
 import difflib
 import subprocess
 
-from workbook import blocks, lessons, markers, pictures
+from workbook import blocks, build, lessons, markers, pictures
 from workbook.chapters import ROOT, all_chapters, find
 from workbook.errors import FAILED
 from workbook.files import back_up, relative, write
@@ -23,7 +23,7 @@ def register(commands):
 
 
 def generate(args):
-    chosen = [find(word) for word in args.chapters] or all_chapters()
+    chosen = [find(word) for word in args.chapters] or build.buildable(all_chapters())
     workshop = Checker() if args.check else Writer()
     for chapter in chosen:
         make_starters(chapter, workshop)
@@ -158,7 +158,8 @@ def make_pictures(chapter, workshop, text_only):
         workshop.text(folder / name, svg)
     if not text_only:
         wanted = blocks.pictured_mutants(chapter)
-        put_pictures(chapter, workshop, wanted, pictures.of_mistakes, exact=True)
+        exact = not pictures.mistakes_are_rendered(chapter)
+        put_pictures(chapter, workshop, wanted, pictures.of_mistakes, exact)
         wanted = pictures.photographs(chapter)
         put_pictures(chapter, workshop, wanted, pictures.rendered, exact=False)
     expected = pictures.expected_names(chapter)

@@ -38,6 +38,11 @@ def photographs(chapter):
     return getattr(script_of(chapter), "PICTURES", {})
 
 
+def mistakes_are_rendered(chapter):
+    """Whether OpenGL draws the pictures of the chapter's mistakes, too: drivers differ a little."""
+    return getattr(script_of(chapter), "MISTAKES_ARE_RENDERED", False)
+
+
 def expected_names(chapter):
     """The files that belong into the chapter's figures folder."""
     return ({f"{name}.svg" for name in drawings(chapter)}

@@ -5,7 +5,10 @@ import signal
 import subprocess
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+
+AT_ONCE = 2
 
 _children = set()
 _lock = threading.Lock()
@@ -57,6 +60,20 @@ def finish(child):
         return child.wait()
     finally:
         stop(child)
+
+
+def results_of(jobs):
+    """Calls functions that wait for children, two at a time; yields their results in order. If one
+    fails, or after Ctrl-C, no child is left."""
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        futures = [pool.submit(job) for job in jobs]
+        try:
+            for future in futures:
+                yield future.result()
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            stop_all()
+            raise
 
 
 def run_logged(command, log, **options):

@@ -2,16 +2,14 @@
 must pass, and every classic mistake must be caught by the check that is there for it."""
 
 import json
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from workbook import build, chapters, checking, compile_errors, explaining, markers, processes
 from workbook.errors import InputError, ToolError
 from workbook.mutants import apply, mutants_of
-from workbook.terminal import paint, uncoloured
+from workbook.terminal import print_outcome, uncoloured
 from workbook.verdict import EXIT_CODES, Verdict
 
-AT_ONCE = 2
 RACE_TRIES = 6
 
 
@@ -33,8 +31,8 @@ def run_all(args, jobs_of, jobs_of_all=()):
     """Runs `jobs_of(chapter)`: (name, function -> problem or ""), two at a time, and where no
     chapter is named `jobs_of_all`; prints a line for each and a summary. Exit code 1 if there was a
     problem."""
-    wanted = [checking.find_checked(word) for word in args.chapters] or [
-        chapter for chapter in chapters.all_chapters() if chapter.solutions]
+    wanted = [checking.find_checked(word) for word in args.chapters] or build.buildable(
+        [chapter for chapter in chapters.all_chapters() if chapter.solutions])
     if not wanted:
         raise ToolError("there is no chapter with pieces, so nothing is shown")
     planned = [(chapter.label, name, job) for chapter in wanted for name, job in jobs_of(chapter)]
@@ -44,20 +42,11 @@ def run_all(args, jobs_of, jobs_of_all=()):
     for chapter in wanted:
         build.build([f"check_{chapter.label}_reference"])
         build.set_mine(chapter, {chapter})
-    with ThreadPoolExecutor(AT_ONCE) as pool:
-        jobs = [(label, name, pool.submit(job)) for label, name, job in planned]
-        try:
-            for label, name, job in jobs:
-                problem = job.result()
-                outcomes.append({"chapter": label, "name": name, "problem": problem})
-                if not args.json:
-                    mark = paint("no", "red") if problem else paint("ok", "green")
-                    print(f"{mark}  {label} {name}" + (f": {problem}" if problem else ""),
-                          flush=True)
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            processes.stop_all()
-            raise
+    results = processes.results_of([job for _, _, job in planned])
+    for (label, name, _), problem in zip(planned, results):
+        outcomes.append({"chapter": label, "name": name, "problem": problem})
+        if not args.json:
+            print_outcome(f"{label} {name}", problem)
     failed = sum(bool(outcome["problem"]) for outcome in outcomes)
     if args.json:
         print(json.dumps({"ok": len(outcomes) - failed, "failed": failed, "outcomes": outcomes}))
@@ -123,7 +112,7 @@ def whole_system():
     texts = {}
     for chapter in chapters.all_chapters():
         texts |= starters(chapter, {hole.id for hole in chapter.holes()})
-    program, problem = compiled("gravity_fall_mine", "10", "all_filled", texts)
+    program, problem = compiled("10_full_system", "10", "all_filled", texts)
     if problem:
         return problem
     hashes = []

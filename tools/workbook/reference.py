@@ -2,6 +2,7 @@
 
 import functools
 import json
+import os
 import subprocess
 
 from workbook import build, processes
@@ -11,16 +12,16 @@ from workbook.errors import ToolError
 SECONDS = 300
 
 
-def answer(target, arguments):
+def answer(target, arguments, seconds=SECONDS, **environment):
     """What an executable prints, built first if it is not up to date. ToolError if it fails."""
     build.build([target])
     shown = " ".join([target, *arguments])
     child = processes.start([str(build.executable(target)), *arguments], cwd=ROOT, text=True,
-                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                            env={**os.environ, **environment}, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     try:
-        printed, errors = child.communicate(timeout=SECONDS)
+        printed, errors = child.communicate(timeout=seconds)
     except subprocess.TimeoutExpired:
-        raise ToolError(f"'{shown}' did not end within {SECONDS} s") from None
+        raise ToolError(f"'{shown}' did not end within {seconds} s") from None
     finally:
         processes.stop(child)
     if child.returncode != 0:

@@ -10,7 +10,7 @@ from workbook.chapters import ROOT
 
 def register(commands):
     for name, run, text in [
-            ("demo", demo_command, "simulate 500 falling balls, record videos/gravity_fall.mp4"),
+            ("demo", demo_command, "record 500 falling balls: videos/gravity_fall.mp4, --view"),
             ("test", test_command, "build and run all tests of the engine"),
             ("bench", bench_command, "time the engine's stages; `bench 02`: your piece and ours")]:
         # These pass all their options on, --help as well.
@@ -19,9 +19,9 @@ def register(commands):
     run.add_argument("chapter", help="number or name, as 02 or grid_hash")
     run.add_argument("--reference", action="store_true", help="with our pieces instead")
     run.add_argument("--mine", metavar="LIST", default="",
-                     help="chapters whose pieces are yours too, as 2,3 or all")
+                     help="chapters whose pieces are yours too, as 2,3 or all (up to this one)")
     run.add_argument("--video", nargs="?", const="", metavar="FILE",
-                     help="record a video (videos/NN_name.mp4)")
+                     help="record a video (build/NN_name.mp4)")
     run.add_argument("--png", nargs="?", const="", metavar="FILE",
                      help="save the last picture (build/NN_name.png)")
     run.epilog = "Further options go to the program: add `-- --help` to see them."
@@ -36,9 +36,10 @@ def become(program, arguments, **environment):
 
 def demo_command(args):
     build.build(["gravity_fall"])
-    own_output = any(option in ("--help", "-h") or option.startswith("--out")
-                     for option in args.further)
-    out = [] if own_output else ["--out", str(ROOT / "videos" / "gravity_fall.mp4")]
+    # A window has no end by itself: what it shows is recorded only if that is asked for.
+    no_video = any(option in ("--help", "-h", "--view") or option.startswith("--out")
+                   for option in args.further)
+    out = [] if no_video else ["--out", str(ROOT / "videos" / "gravity_fall.mp4")]
     become(build.executable("gravity_fall"), [*out, *args.further])
 
 
@@ -51,13 +52,13 @@ def test_command(args):
 def run_command(args):
     chapter = chapters.find(args.chapter)
     target = chapter.folder + ("_reference" if args.reference else "")
+    build.require(chapter)
     if not args.reference:
-        build.configure()
         build.set_mine(chapter, checking.mine(chapter, args.mine))
     build.build([target])
     further = [option for option in args.further if option != "--"]
     if args.video is not None:
-        further += ["--out", args.video or str(ROOT / "videos" / f"{chapter.folder}.mp4")]
+        further += ["--out", args.video or str(ROOT / "build" / f"{chapter.folder}.mp4")]
     if args.png is not None:
         further += ["--png", args.png or str(ROOT / "build" / f"{chapter.folder}.png")]
     become(build.executable(target), further)

@@ -15,6 +15,12 @@ def paint(text, colour, stream=None):
     return f"\033[{COLOURS[colour]}m{text}\033[0m"
 
 
+def print_outcome(name, problem):
+    """One line of a list of proofs: ok, or no and why."""
+    mark = paint("no", "red") if problem else paint("ok", "green")
+    print(f"{mark}  {name}" + (f": {problem}" if problem else ""), flush=True)
+
+
 def uncoloured(text):
     """The text without the colours that paint() gave it."""
     return re.sub("\033\\[\\d+m", "", text)

@@ -3,24 +3,26 @@
 
 #include <algorithm>
 
-#include "10_full_system/step_stages.cuh"
+#include "10_full_system/engine_stages.cuh"
+//@starter #include "common/hole.cuh"
 
 namespace ballpit {
 
 using Copies = RigidBodySystem::Copies;
 
-/// The copy that comes `distance` after this one, in a ring.
-inline std::size_t following(std::size_t copy, std::size_t distance) {
-    return (copy + distance) % RigidBodySystem::copyCount;
-}
-
-/// Of the three copies, the one that is neither committed nor in use.
+/// Of the copies 0, 1 and 2, one that is neither committed nor in use. (At the start of a step the
+/// committed copy is the one in use: then either of the others will do.)
 inline std::size_t otherWorkingCopy(std::size_t committed, std::size_t inUse) {
-    return inUse == committed ? following(committed, 1) : 3 - committed - inUse;
+    //@hole system.copies lines=2 "A copy that is neither committed nor in use"
+    //@starter TODO_HOLE("system.copies");
+    //@starter return (inUse + 1) % RigidBodySystem::copyCount;  // the next one, whatever lies there
+    if (inUse == committed) return (committed + 1) % RigidBodySystem::copyCount;
+    return 3 - committed - inUse;
+    //@end
 }
 
 /// Builds the grid; the bodies go to the working copies that are free, which are returned.
-inline Copies sortInto(StepStages& stages, Copies committed, Copies now) {
+inline Copies sortInto(EngineStages& stages, Copies committed, Copies now) {
     const Copies sorted{otherWorkingCopy(committed.moving, now.moving),
                         otherWorkingCopy(committed.fixed, now.fixed)};
     stages.buildGrid(now, sorted);
@@ -38,12 +40,18 @@ inline float motionShare(int round, int rounds, bool rebuild) {
 
 /// Enqueues all stages of a step that starts from the copies `from`, which stay as they are.
 /// Returns the copies that will hold the result. `rebuild`: the grid is built in every round.
-inline Copies enqueueStep(StepStages& stages, Copies from, bool rebuild) {
+inline Copies enqueueStep(EngineStages& stages, Copies from, bool rebuild) {
     const int rounds = *stages.settings().iterations;
     stages.beginReport();
-    Copies now{following(from.moving, 1), from.fixed};
+    Copies now = from;
+    //@hole system.begin lines=3 "Integrate into a free copy, then build the grid"
+    //@starter TODO_HOLE("system.begin");
+    now.moving = otherWorkingCopy(from.moving, from.moving);
     stages.integrate(from, now);
     now = sortInto(stages, from, now);
+    //@end
+    //@hole system.rounds lines=10 "Each round: the grid anew if asked; detect; resolve into the free copy"
+    //@starter TODO_HOLE("system.rounds");
     for (int round = 0; round < rounds; ++round) {
         if (rebuild && round > 0) {
             stages.hash(now);
@@ -54,6 +62,7 @@ inline Copies enqueueStep(StepStages& stages, Copies from, bool rebuild) {
         stages.resolveCollisions(now, resolved, motionShare(round, rounds, rebuild));
         now = resolved;
     }
+    //@end
     stages.sendReport();
     return now;
 }

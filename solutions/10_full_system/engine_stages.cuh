@@ -8,6 +8,8 @@
 #include "10_full_system/responses.cuh"
 #include "10_full_system/simulator_settings.h"
 #include "10_full_system/step_parts.cuh"
+//@starter #include "common/hole.cuh"
+//@starter #include "common/pass_on.cuh"
 #include "common/readback.cuh"
 #include "common/rigid_body.cuh"
 #include "common/stage_timer.h"
@@ -16,12 +18,12 @@ namespace ballpit {
 
 /// Owns the bodies, the grid, the pair list and the response. A stage reads one copy of the bodies
 /// and writes another; none waits for the device.
-class StepStages {
+class EngineStages {
 public:
     using Copies = RigidBodySystem::Copies;
 
     /// InputError if the settings make no sense or need more memory than the device has.
-    explicit StepStages(const SimulatorSettings& settings)
+    explicit EngineStages(const SimulatorSettings& settings)
         : settings_(checked(settings)),
           count_(settings.objects),
           bodies_(settings.device, static_cast<std::size_t>(count_)),
@@ -32,6 +34,9 @@ public:
           scratch_(settings.device, 0, "scratch"),
           timer_(settings.device) {
         timer_.enable(settings.timeStages);
+        // Before it is built for the first time, the grid holds nobody.
+        grid_.cellEnds.fill(0);
+        grid_.sortedHashes.fill(0);
     }
 
     RigidBodySystem& bodies() { return bodies_; }
@@ -57,10 +62,15 @@ public:
     /// Moves the bodies, `from` to `to`, and hashes them.
     void integrate(Copies from, Copies to) {
         timer_.start("integrate + hash");
+        //@hole system.integrate lines=4 "One launch of integrateAndHash, from one copy into the other"
+        //@starter TODO_HOLE("system.integrate");
+        //@starter passOn(settings_.device, count_, bodies_.view(from), bodies_.view(to));  // nobody moves
+        //@starter hash(to);
         launch<integrateAndHash>(
             settings_.device, count_, bodies_.view(from), bodies_.view(to),
             MotionSettings{settings_.gravity, settings_.damping, settings_.dt, settings_.bounds},
             grid_.view(), grid_.hashes.view(), grid_.indices.view(), status_.view());
+        //@end
     }
 
     /// Hashes bodies that already moved: for a grid that is built again within a step.
@@ -73,6 +83,9 @@ public:
 
     /// Sorts by hash, moves the bodies into cell order, `from` to `to`, and finds the cells.
     void buildGrid(Copies from, Copies to) {
+        //@hole system.build_grid lines=5 "Sort, clear the cells, reorder and find the cells, in the right order"
+        //@starter TODO_HOLE("system.build_grid");
+        //@starter passOn(settings_.device, count_, bodies_.view(from), bodies_.view(to));  // unsorted
         timer_.start("sort");
         sortByHash(settings_.device, count_, grid_, scratch_);
         timer_.start("reorder + cell bounds");
@@ -80,20 +93,28 @@ public:
         launch<reorderAndFindCells>(settings_.device, count_, count_, grid_.sortedHashes.view(),
                                     grid_.sortedIndices.view(), bodies_.view(from),
                                     bodies_.view(to), grid_.view());
+        //@end
     }
 
     /// Lists all touching pairs of the bodies in `copies`.
     void detectCollisions(Copies copies) {
         timer_.start("broad phase");
+        //@hole system.detect lines=2 "Let findPairsGrid fill the pair list"
+        //@starter TODO_HOLE("system.detect");
         findPairsGrid(settings_.device, count_, grid_.view(), grid_.sortedHashes.view(),
                       bodies_.view(copies).positions, pairs_, status_.view(), scratch_);
+        //@end
     }
 
     /// Resolves the listed pairs, `from` to `to`.
     void resolveCollisions(Copies from, Copies to, float motionShare) {
         timer_.start("response");
+        //@hole system.resolve lines=2 "Give the response its round: from one copy into the other"
+        //@starter TODO_HOLE("system.resolve");
+        //@starter passOn(settings_.device, count_, bodies_.view(from), bodies_.view(to));  // no contacts
         response_->resolve({count_, bodies_.view(from), bodies_.view(to), pairs_.view(),
                             0.5f * grid_.cellSize, motionShare, status_.view()});
+        //@end
     }
 
     /// Sends the step's report to the host after all stages so far.

@@ -1,0 +1,126 @@
+"""`./ballpit maps` and its program: bad input, files, an interruption, and how a map is drawn.
+
+    python3 tests/test_maps.py BUILD_FOLDER
+"""
+
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tools" / "figures"))
+
+import failure_map
+
+BUILD = Path(sys.argv.pop(1)) if len(sys.argv) > 1 else ROOT / "build" / "cpu-release"
+PROGRAM = BUILD / "bin" / "ballpit_maps"
+
+TINY = '''\
+# map: tiny
+# title: Does it hold?
+# ok: it holds
+# value: a value
+# a machine, commit 1
+kind,panel,x,y,verdict,value,label
+axes,"racy, e = 1","radii in a step","balls",,,
+cell,"racy, e = 1",1,2,ok,0.5,
+cell,"racy, e = 1",10,2,energy,2,
+cell,"racy, e = 1",1,4,not finite,nan,
+cell,"racy, e = 1",10,4,lost,0,
+line,"racy, e = 1",1,2,,,"a < b"
+line,"racy, e = 1",10,4,,,"a < b"
+line,"racy, e = 1",500,4,,,"a < b"
+'''
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120)
+
+
+class Program(unittest.TestCase):
+    def refuses(self, words, *arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            result = run(*([] if "--out" in arguments else ["--out", folder]), *arguments)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+            for word in words:
+                self.assertIn(word, result.stderr)
+            self.assertEqual(list(Path(folder).iterdir()), [])
+
+    def test_an_unknown_map_is_refused_with_the_list(self):
+        self.refuses(["error: map 'gass'", "known maps are gas, column, heavy"], "hub", "gass")
+
+    def test_unknown_options_and_devices_are_refused(self):
+        self.refuses(["--fine"], "--fine")
+        self.refuses(["--device"], "--device", "abacus")
+
+    def test_a_folder_that_is_none_is_refused(self):
+        self.refuses(["--out /no/such/folder: is not a folder"], "hub", "--out", "/no/such/folder")
+
+    def test_a_map_says_its_time_before_it_starts_and_names_its_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = run("penalty", "--coarse", "--out", folder, "--stamp", "commit 1")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("penalty: 4 cells, about 1 s", result.stderr.splitlines()[0])
+            self.assertEqual(result.stdout.strip(), f"{folder}/map_penalty.csv")
+            self.assertEqual([file.name for file in Path(folder).iterdir()], ["map_penalty.csv"])
+            notes, panels = failure_map.read(f"{folder}/map_penalty.csv")
+            self.assertEqual(notes[""], ["commit 1"])
+            self.assertEqual(panels[0].cells[0.05, 1.0], "ok")
+            self.assertEqual(panels[0].cells[0.5, 1.0], "energy")
+
+    def test_an_interrupted_map_leaves_no_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            child = subprocess.Popen([PROGRAM, "gas", "--out", folder], stderr=subprocess.PIPE,
+                                     text=True)
+            child.stderr.readline()  # it has begun
+            child.send_signal(signal.SIGINT)
+            child.communicate(timeout=60)
+            self.assertEqual(child.returncode, 130)
+            self.assertEqual(list(Path(folder).iterdir()), [])
+
+
+class Drawing(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.file = Path(self.folder.name) / "tiny.csv"
+        self.file.write_text(TINY)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_a_picture_has_title_axes_machine_and_a_legend_of_what_occurs(self):
+        picture = failure_map.draw(self.file)
+        for words in ("Does it hold?", "ok: it holds", "racy, e = 1", "radii in a step", "balls",
+                      "a machine, commit 1", "energy from nowhere", "predicted: a &lt; b"):
+            self.assertIn(words, picture)
+        self.assertNotIn(">too many pairs<", picture)
+
+    def test_each_verdict_has_its_colour_and_its_letter(self):
+        colours = [colour for colour, _, _ in failure_map.VERDICTS.values()]
+        letters = [letter for _, letter, _ in failure_map.VERDICTS.values()]
+        self.assertEqual(len(set(colours)), len(colours))
+        self.assertEqual(len(set(letters)), len(letters))
+        picture = failure_map.draw(self.file)
+        for letter in "ENL":
+            self.assertEqual(picture.count(f">{letter}</text>"), 2)  # legend and cell
+
+    def test_values_lie_between_cells_by_their_ratio_and_outside_nowhere(self):
+        self.assertEqual(failure_map.place(1, [1, 10, 100]), 0)
+        self.assertAlmostEqual(failure_map.place(31.6227766, [1, 10, 100]), 1.5)
+        self.assertAlmostEqual(failure_map.place(0.5, [0, 1, 2]), 0.5)
+        self.assertIsNone(failure_map.place(1000, [1, 10, 100]))
+        self.assertIsNone(failure_map.place(0.1, [1, 10, 100]))
+
+    def test_a_line_ends_where_it_leaves_the_panel(self):
+        picture = failure_map.draw(self.file)
+        self.assertEqual(picture.count('stroke-width="5"'), 1)
+        piece = picture.split('d="M')[1].split('"')[0]
+        self.assertEqual(piece.count("L"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
