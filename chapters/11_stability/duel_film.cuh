@@ -5,6 +5,7 @@
 #include "common/coloring.h"
 #include "common/film.h"
 #include "common/host_pairs.h"
+#include "common/progress.h"
 
 namespace ballpit {
 
@@ -37,26 +38,35 @@ inline std::vector<Vec3> duelColors(const Scene& scene, const Spheres& balls) {
     return colorsBy(ColorBy::speed, {.balls = balls, .topSpeed = topSpeed(scene.spheres)});
 }
 
-/// Films as many steps as the options say, or takes a picture of the last.
-inline void filmDuel(const Duel& duel, const Options& options) {
+/// The balls of both sides, the first side moved left and the second right.
+inline Spheres sideBySide(Match& match, Vec3 shift) {
+    Spheres both;
+    for (Side& side : match.sides) {
+        const Spheres balls = side.balls();
+        const std::vector<Vec3> colors = duelColors(match.scene, balls);
+        const Vec3 moved = &side == match.sides ? -shift : shift;
+        for (std::size_t k = 0; k < balls.count(); ++k)
+            both.add(balls.positions[k] + moved, {}, balls.radii[k], 1.0f, 1.0f, colors[k]);
+    }
+    return both;
+}
+
+/// Films as many steps as the options say, or takes a picture of the last. From the front, unless
+/// the options say otherwise.
+inline void filmDuel(const Duel& duel, Options options) {
     Match match(duel, options);
     const Bounds box = match.scene.bounds;
     const Vec3 shift{0.55f * (box.upper.x - box.lower.x), 0, 0};
+    if (!options.shot.yaw) options.shot.yaw = 0.0f;
     Film film(options, {box.lower - shift, box.upper + shift});
-    for (int frame = 1; frame <= options.frames; ++frame) {
+    const std::string names =
+        duel.scene + ": " + match.sides[0].methodName() + " | " + match.sides[1].methodName();
+    const StopRequest stop;
+    for (int frame = 1; frame <= options.frames && !StopRequest::received(); ++frame) {
         match.step();
-        if (options.out.empty() && frame < options.frames) continue;
-        Spheres both;
-        for (Side& side : match.sides) {
-            const Spheres balls = side.balls();
-            const std::vector<Vec3> colors = duelColors(match.scene, balls);
-            const Vec3 moved = &side == match.sides ? -shift : shift;
-            for (std::size_t k = 0; k < balls.count(); ++k)
-                both.add(balls.positions[k] + moved, {}, balls.radii[k], 1.0f, 1.0f, colors[k]);
-        }
-        film.capture(
-            both.positions, both.radii, both.colors,
-            duel.scene + ": " + match.sides[0].methodName() + " | " + match.sides[1].methodName());
+        if (!options.isFilmed() && frame < options.frames) continue;
+        const Spheres both = sideBySide(match, shift);
+        film.capture(both.positions, both.radii, both.colors, names);
     }
     film.finish();
 }

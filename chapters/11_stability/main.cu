@@ -26,15 +26,15 @@ static void tell(Findings& findings, const Duel& duel, const Options& options) {
 
 static int run(const Options& options) {
     const std::vector<Duel> duels = duelsNamed(options.scene);
-    const bool isFilmed = !options.out.empty() || !options.png.empty();
-    if (isFilmed && duels.size() > 1)
-        throw InputError("--png and --out show one scene: say which with --scene");
+    const bool isShown = options.isFilmed() || !options.png.empty();
+    if (isShown && duels.size() > 1)
+        throw InputError("a picture or a film shows one scene: say which with --scene");
     Findings findings("11 stability: one scene, two methods");
     for (const Duel& duel : duels) tell(findings, duel, options);
     tellExample(findings);
     if (options.time) tellRanking(findings, options);
     findings.print(options.json);
-    if (isFilmed) filmDuel(duels.front(), options);
+    if (isShown) filmDuel(duels.front(), options);
     return 0;
 }
 

@@ -318,7 +318,7 @@ inline void pairByPair(Report& report) {
         const Example scene = randomScene(1000, report.seed + 10, e);
         const Spheres after = pairByPairOnce(report.device, scene);
         const double before = kineticEnergy(scene.balls), now = kineticEnergy(after);
-        const std::string where = "1000 balls, e " + text(e) + ": ";
+        const std::string where = "1000 balls, e " + brief(e) + ": ";
         requireNear(report, where + "momentum that came or went, kg m/s",
                     momentumBetween(scene.balls, after), 0, momentumTolerance(scene.balls, after));
         if (!(now <= before * (1 + 1e-5)))

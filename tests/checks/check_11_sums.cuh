@@ -12,6 +12,16 @@ namespace ballpit::check {
 /// All of every impulse and overlap, and everything bounces.
 constexpr ContactRules plainRules{1.0f, 1.0f, 0.0f};
 
+/// A number in a sentence: "0.2", where text() would say 0.200000003.
+inline std::string brief(double value) {
+    char words[32];
+    std::snprintf(words, sizeof words, "%.3g", value);
+    return words;
+}
+inline std::string brief(Vec3 v) {
+    return "(" + brief(v.x) + ", " + brief(v.y) + ", " + brief(v.z) + ")";
+}
+
 inline Spheres summed(Device device, const Example& example, bool splitMasses) {
     JacobiResponse response(device, example.balls.count(), example.pairs.size(), plainRules,
                             splitMasses);
@@ -51,8 +61,8 @@ Mistake shareMistake(const char* words, Share share) {
 inline void splitByHand(Report& report) {
     for (const SplitCase& c : splitCases())
         requireNear(report,
-                    "share of balls of " + text(c.massA) + " and " + text(c.massB) + " kg with " +
-                        text(c.contactsA) + " and " + text(c.contactsB) + " contacts",
+                    "share of balls of " + brief(c.massA) + " and " + brief(c.massB) + " kg with " +
+                        brief(c.contactsA) + " and " + brief(c.contactsB) + " contacts",
                     splitShare(1 / c.massA, c.contactsA, 1 / c.massB, c.contactsB), c.share);
     using D = double;
     report.guess(
@@ -92,8 +102,8 @@ inline void plainSum(Report& report) {
             for (const float e : {0.0f, 0.5f, 1.0f}) {
                 const double S = k * 0.64, B = mass / (mass + 1.0);
                 const Example cone = coneOf(k, 0.8, 1, mass, e);
-                const std::string where =
-                    text(k) + " balls of " + text(mass) + " kg at rest, e " + text(e) + ": energy ";
+                const std::string where = text(k) + " balls of " + brief(mass) + " kg at rest, e " +
+                                          brief(e) + ": energy ";
                 const double sum = truth::hubAndSpokesEnergy(e, S, B);
                 requireNear(report, where + "after / before, plain sum", gain(cone, false), sum,
                             1e-4 * std::max(1.0, sum));
@@ -104,10 +114,10 @@ inline void plainSum(Report& report) {
     for (const float e : {0.0f, 0.5f, 1.0f}) {
         const Example scene = randomScene(400, report.seed, e);
         const Spheres after = summed(report.device, scene, true);
-        requireNear(report, "split, e " + text(e) + ": momentum that came or went, kg m/s",
+        requireNear(report, "split, e " + brief(e) + ": momentum that came or went, kg m/s",
                     momentumBetween(scene.balls, after), 0, momentumTolerance(scene.balls, after));
         if (!(kineticEnergy(after) <= kineticEnergy(scene.balls) * (1 + 1e-6)))
-            report.fail("split, e " + text(e) + ": energy, J", text(float(kineticEnergy(after))),
+            report.fail("split, e " + brief(e) + ": energy, J", text(float(kineticEnergy(after))),
                         "at most " + text(float(kineticEnergy(scene.balls))));
     }
     char words[160];
