@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "stability/catalogue.h"
 #include "stability/map_file.h"
 #include "stability/run_maps.cuh"
 
@@ -17,6 +18,7 @@ struct Asked {
     std::vector<std::string> names;
     MapOptions options;
     std::string out = ".", stamp;
+    bool scenes = false;
 };
 
 std::string allNames() {
@@ -40,7 +42,24 @@ std::vector<MapKind> kindsOf(const std::vector<std::string>& names) {
     return kinds;
 }
 
+/// The catalogue as a Markdown table, for docs/stability.md.
+int printScenes() {
+    std::printf(
+        "| scene | balls | question | held against | within | knobs |\n"
+        "|---|---|---|---|---|---|\n");
+    for (const Entry& e : catalogue()) {
+        std::string balls = std::to_string(e.usualCount);
+        if (e.leastCount != e.mostCount)
+            balls +=
+                " (" + std::to_string(e.leastCount) + " to " + std::to_string(e.mostCount) + ")";
+        std::printf("| `%s` | %s | %s | %s | %s | %s |\n", e.name, balls.c_str(), e.question,
+                    e.truth, e.tolerance, e.knobs);
+    }
+    return exitOk;
+}
+
 int run(const Asked& asked) {
+    if (asked.scenes) return printScenes();
     const std::vector<MapKind> kinds = kindsOf(asked.names);
     if (asked.options.device == Device::cuda && !cudaUsable())
         throw InputError("--device cuda: " + whyCudaIsUnusable());
@@ -76,6 +95,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--out", asked.out, "folder for the files")->capture_default_str();
     app.add_option("--stamp", asked.stamp, "lines for the files' head: machine, commit, command");
+    app.add_flag("--scenes", asked.scenes, "print the table of scenes instead, as Markdown");
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

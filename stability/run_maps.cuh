@@ -24,10 +24,10 @@ struct MapKind {
 
 inline const std::vector<MapKind>& mapKinds() {
     static const std::vector<MapKind> kinds{
-        {"gas", gasMap, 600, 10},       {"column", columnMap, 60, 3},
-        {"heavy", heavyMap, 20, 2},     {"tunnelling", tunnellingMap, 10, 1},
-        {"hub", hubMap, 2, 1},          {"penalty", penaltyMap, 1, 1},
-        {"overlap", overlapMap, 10, 1}, {"precision", precisionMap, 20, 2}};
+        {"gas", gasMap, 120, 4},       {"column", columnMap, 8, 1},
+        {"heavy", heavyMap, 8, 1},     {"tunnelling", tunnellingMap, 3, 1},
+        {"hub", hubMap, 1, 1},         {"penalty", penaltyMap, 1, 1},
+        {"overlap", overlapMap, 1, 1}, {"precision", precisionMap, 10, 1}};
     return kinds;
 }
 

@@ -72,6 +72,25 @@ class Program(unittest.TestCase):
             self.assertEqual(panels[0].cells[0.05, 1.0], "ok")
             self.assertEqual(panels[0].cells[0.5, 1.0], "energy")
 
+    def test_the_docs_have_the_table_of_scenes_as_the_program_prints_it(self):
+        table = run("--scenes").stdout
+        self.assertIn("| `six_cubed` | 216 |", table)
+        text = (ROOT / "docs" / "stability.md").read_text()
+        block = text.split("<!-- from: ballpit_maps --scenes -->\n")[1].split("<!-- end -->")[0]
+        self.assertEqual(block, table)
+
+    def test_the_docs_show_every_map_that_there_is(self):
+        text = (ROOT / "docs" / "stability.md").read_text()
+        known = run("gass").stderr.split("known maps are ")[1].strip().split(", ")
+        self.assertEqual(len(known), 8)
+        for name in known:
+            self.assertIn(f"(results/map_{name}.svg)", text)
+            for ending in ("svg", "csv"):
+                file = ROOT / "docs" / "results" / f"map_{name}.{ending}"
+                self.assertTrue(file.exists(), file)
+            drawn = failure_map.draw(ROOT / "docs" / "results" / f"map_{name}.csv")
+            self.assertEqual(drawn, (ROOT / "docs" / "results" / f"map_{name}.svg").read_text())
+
     def test_an_interrupted_map_leaves_no_file(self):
         with tempfile.TemporaryDirectory() as folder:
             child = subprocess.Popen([PROGRAM, "gas", "--out", folder], stderr=subprocess.PIPE,
@@ -95,7 +114,7 @@ class Drawing(unittest.TestCase):
     def test_a_picture_has_title_axes_machine_and_a_legend_of_what_occurs(self):
         picture = failure_map.draw(self.file)
         for words in ("Does it hold?", "ok: it holds", "racy, e = 1", "radii in a step", "balls",
-                      "a machine, commit 1", "energy from nowhere", "predicted: a &lt; b"):
+                      "a machine, commit 1", "energy from nowhere", "line: a &lt; b"):
             self.assertIn(words, picture)
         self.assertNotIn(">too many pairs<", picture)
 

@@ -244,6 +244,15 @@ TEST_CASE("a hub with more contacts than colours is resolved exactly and in any 
                           -2.0f * direction + random.uniformIn({{0, 0, 0}, {1, 1, 1}}), 0.3f, 1.0f,
                           1.0f);
     }
+    std::vector<Pair> pairs;
+    for (std::uint32_t k = 1; k <= 150; ++k) pairs.push_back({0, k});
+    ColouredResponse response(device, 151, 150, {1.0f, 1.0f, 0.0f});
+    const Spheres once = OneRound(device, scene.spheres, pairs).resolve(response);
+    int untouched = 0;
+    for (std::size_t k = 1; k <= 150; ++k)
+        untouched += once.velocities[k] == scene.spheres.velocities[k];
+    CHECK(untouched == 0);
+
     SimulatorSettings settings = test::settingsFor(scene, device, ResponseMethod::coloured);
     const Spheres end = test::simulate(scene, settings, 5);
     const Metrics before = test::measureIn(scene, scene.spheres);

@@ -102,10 +102,10 @@ namespace {
 
 /// A crowd of balls, fast and slow, of mixed sizes: many of them change their ways within a step.
 Scene rush(float speed, std::uint64_t seed) {
-    Scene scene = test::gasOf(1000, 0.3, 0.8f, speed, seed);
+    Scene scene = test::gasOf(1000, 0.45, 0.8f, speed, seed);
     Random random(seed);
     for (std::size_t k = 0; k < scene.spheres.count(); ++k) {
-        scene.spheres.radii[k] = random.uniform(0.2f, 0.5f);
+        scene.spheres.radii[k] = random.uniform(0.4f, 0.5f);
         if (k % 3) scene.spheres.velocities[k] = {};
     }
     return scene;
@@ -120,7 +120,7 @@ bool isListed(const std::vector<Pair>& list, Pair pair) {
 TEST_CASE("no pair is missed by the list that serves all substeps of a step", "[stability]") {
     const Device device = GENERATE(from_range(test::devices()));
     const ResponseMethod method = GENERATE(ResponseMethod::smallSteps, ResponseMethod::penalty);
-    const float speed = GENERATE(0.5f, 2.0f, 5.0f);
+    const float speed = GENERATE(0.5f, 2.0f, 6.0f);
     CAPTURE(device, method, speed);
     const Scene scene = rush(speed, 7);
     PhysicsSimulator simulator(test::settingsFor(scene, device, method));
@@ -139,7 +139,7 @@ TEST_CASE("no pair is missed by the list that serves all substeps of a step", "[
     }
     CAPTURE(shared, touching);
     CHECK(missed == 0);
-    CHECK(shared > 0);
+    if (speed < 1.0f) CHECK(shared > 0);
 }
 
 TEST_CASE("a ball that is struck and leaves its reach has the step repeated, and hits the next",

@@ -98,17 +98,19 @@ TEST_CASE("the staged race holds with one contact and fails with two", "[stabili
     CHECK(hub(racy, 3, 1) == Verdict::energy);
 }
 
-TEST_CASE("split masses and colours hold with any number of contacts", "[stability]") {
-    for (const ResponseMethod method : {massSplit, coloured})
-        for (const int spokes : {3, 12}) CHECK(hub(method, spokes, 1) == Verdict::ok);
+TEST_CASE("split masses, colours and small steps hold with any number of contacts", "[stability]") {
+    for (const ResponseMethod method : {massSplit, coloured, smallSteps})
+        for (const int spokes : {3, 12}) {
+            CAPTURE(name(method), spokes);
+            CHECK(hub(method, spokes, 1) == Verdict::ok);
+        }
 }
 
-TEST_CASE("one step of fixed bounces holds with two contacts and fails with many", "[stability]") {
-    for (const ResponseMethod method : {warm, smallSteps}) {
-        CAPTURE(name(method));
-        CHECK(hub(method, 2, 1) == Verdict::ok);
-        CHECK(hub(method, 6, 1) == Verdict::energy);
-    }
+TEST_CASE("warm fixes all bounces at once: it holds with two contacts and fails with six",
+          "[stability]") {
+    CHECK(hub(warm, 2, 1) == Verdict::ok);
+    CHECK(hub(warm, 6, 1) == Verdict::energy);
+    CHECK(hub(warm, 6, 0.5f) == Verdict::ok);
 }
 
 TEST_CASE("an elastic gas: who holds where it is thin, and who where it is dense", "[stability]") {
@@ -123,7 +125,9 @@ TEST_CASE("an elastic gas: who holds where it is thin, and who where it is dense
     CHECK(gas(penalty, 0.1f, 0.05f) == Verdict::ok);
     CHECK(gas(penalty, 0.48f, 0.8f) == Verdict::inaccurate);
     CHECK(gas(massSplit, 0.4f, 0.1f) == Verdict::inaccurate);
-    CHECK(gas(smallSteps, 0.05f, 0.1f) == Verdict::ok);
+    CHECK(gas(smallSteps, 0.4f, 0.1f) == Verdict::ok);
+    CHECK(gas(warm, 0.05f, 0.02f) == Verdict::ok);
+    CHECK(gas(warm, 0.4f, 0.1f) == Verdict::inaccurate);
     CHECK(gas(racy, 0.4f, 0.1f) == Verdict::energy);
 }
 

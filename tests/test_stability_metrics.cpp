@@ -82,6 +82,9 @@ TEST_CASE("balls outside are lost, and those without a number are counted apart"
     balls.velocities[3].z = std::numeric_limits<float>::infinity();
     CHECK(lossesOf(balls, world).lost == 2);
     CHECK(lossesOf(balls, world).notFinite == 1);
+    balls.positions[1].x = std::numeric_limits<float>::quiet_NaN();
+    CHECK(lossesOf(balls, world).lost == 1);
+    CHECK(lossesOf(balls, world).notFinite == 2);
 }
 
 TEST_CASE("temperature, mean free time and pressure of a gas follow from each other") {

@@ -168,8 +168,8 @@ class Clips(Miniature):
         before = self.files()
         self.state(hangs=True)
         os.remove(self.root / "pid")
-        child = subprocess.Popen([sys.executable, self.root / "tools/ballpit.py", "videos", "other"],
-                                 cwd=self.root, stderr=subprocess.PIPE, text=True)
+        command = [sys.executable, self.root / "tools/ballpit.py", "videos", "other"]
+        child = subprocess.Popen(command, cwd=self.root, stderr=subprocess.PIPE, text=True)
         while not (self.root / "pid").exists() or not self.read("pid"):
             time.sleep(0.02)
         child.send_signal(signal.SIGINT)
@@ -188,8 +188,8 @@ class Clips(Miniature):
         block = "<!-- gen clip{} -->\n<!-- /gen -->"
         self.write("chapters/01_alpha/README.md", "# 01\n\n" + block.format(" other") + "\n")
         self.ballpit("gen", "--text-only", "01")
-        self.assertIn("[![More](../../videos/other.png)](../../videos/other.mp4)\n\n*Another (1 s)*",
-                      self.read("chapters/01_alpha/README.md"))
+        self.assertIn("[![More](../../videos/other.png)](../../videos/other.mp4)\n\n"
+                      "*Another (1 s)*", self.read("chapters/01_alpha/README.md"))
         self.write("chapters/01_alpha/README.md", "# 01\n\n" + block.format("") + "\n")
         self.assertIn("no clip '01_alpha'", self.ballpit("gen", "01", code=1))
 

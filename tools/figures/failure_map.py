@@ -127,7 +127,7 @@ class Sheet:
         for number, label in enumerate(self.labels):
             y = 96 + 20 * number
             figure.line(16, y, 52, y, INK, 2, DASHES[number % len(DASHES)])
-            figure.text(60, y + 4, f"predicted: {label}", 13, anchor="start")
+            figure.text(60, y + 4, f"line: {label}", 13, anchor="start")
 
     def draw_cell(self, x, y, width, height, color, letter):
         self.figure.add("rect", x=x, y=y, width=width, height=height, fill=color, stroke=PAPER,

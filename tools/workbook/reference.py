@@ -17,7 +17,8 @@ def answer(target, arguments, seconds=SECONDS, **environment):
     build.build([target])
     shown = " ".join([target, *arguments])
     child = processes.start([str(build.executable(target)), *arguments], cwd=ROOT, text=True,
-                            env={**os.environ, **environment}, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                            env={**os.environ, **environment}, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE)
     try:
         printed, errors = child.communicate(timeout=seconds)
     except subprocess.TimeoutExpired:
