@@ -133,7 +133,7 @@ HD inline float bouncedOffWall(float velocity, float before, std::uint32_t wall,
     return inwards * maximum(inwards * velocity, 0.0f);
 }
 
-HD inline void bounceOffWalls(int i, SmallStepView view, float threshold) {
+HD inline void settleWalls(int i, SmallStepView view, float threshold) {
     const std::uint32_t walls = view.wallsThatPushed[i];
     if (walls == 0) return;
     const Vec4 before = view.round.from.velocities[i];
@@ -186,7 +186,7 @@ public:
         }
         launch<velocityFromPositions>(device_, round.bodyCount, view, settings_.h);
         colouring_.forEachPair<takeBackPush>(view, settings_);
-        launch<bounceOffWalls>(device_, round.bodyCount, view, settings_.restitutionThreshold);
+        launch<settleWalls>(device_, round.bodyCount, view, settings_.restitutionThreshold);
         colouring_.forEachPair<settlePair>(view);
     }
     void reserve(std::size_t pairCapacity) override {
