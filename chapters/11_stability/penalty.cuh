@@ -44,10 +44,10 @@ HD inline float pressure(float penetration, float separation, float restitution,
                          const PenaltySettings& s) {
     constexpr float piSquared = 9.8696044f;
     const float logarithm = naturalLogarithm(restitution);
-    // ---- hole penalty.force (about 3 lines): K and C from the contact's time and e; then what they do in h
-    TODO_HOLE("penalty.force");
+    // ---- hole spring.force (about 3 lines): K and C from the contact's time and e; then what they do in h
+    TODO_HOLE("spring.force");
     return 0.0f * piSquared * logarithm;
-    // ---- end of penalty.force
+    // ---- end of spring.force
 }
 
 /// Along one axis: what the walls add to a body's velocity.

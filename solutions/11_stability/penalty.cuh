@@ -44,8 +44,8 @@ HD inline float pressure(float penetration, float separation, float restitution,
                          const PenaltySettings& s) {
     constexpr float piSquared = 9.8696044f;
     const float logarithm = naturalLogarithm(restitution);
-    //@hole penalty.force lines=3 "K and C from the contact's time and e; then what they do in h"
-    //@starter TODO_HOLE("penalty.force");
+    //@hole spring.force lines=3 "K and C from the contact's time and e; then what they do in h"
+    //@starter TODO_HOLE("spring.force");
     //@starter return 0.0f * piSquared * logarithm;
     const float spring = (piSquared + logarithm * logarithm) / (s.contactTime * s.contactTime);
     const float dashpot = -2.0f * logarithm / s.contactTime;
