@@ -21,7 +21,7 @@ void addSharedOptions(CLI::App& app, Options& o, std::string& device) {
                    "cuda or cpu: the same bits on both; by default the GPU "
                    "where there is one")
         ->check(CLI::IsMember({"cuda", "cpu"}));
-    if (app.get_option_no_throw("--scene"))
+    if (app.get_option_no_throw("--response"))
         app.add_option("--count", o.count, "number of balls (default: the scene's own)");
     else
         app.add_option("--count", o.count, "number of balls")->capture_default_str();
@@ -87,6 +87,8 @@ void addSimulationOptions(CLI::App& app, Options& o) {
 }
 
 void addChapterOptions(CLI::App& app, Options& o) {
+    if (!o.sceneChoice.empty())
+        app.add_option("--scene", o.scene, o.sceneChoice)->capture_default_str();
     app.add_option("--frames", o.frames, "frames of the video")->capture_default_str();
     app.add_flag("--time", o.time,
                  "measure the piece's speed as well, for " + std::to_string(o.timedCount) +
@@ -133,7 +135,7 @@ std::string oneLine(const CLI::App& app, const CLI::ParseError& error, int argc,
 /// The number of balls where --count does not say it.
 int usualCount(const CLI::App& app, const Options& o) {
     if (o.time) return o.timedCount;
-    return app.get_option_no_throw("--scene") ? sceneKind(o.scene).usualCount : o.count;
+    return app.get_option_no_throw("--response") ? sceneKind(o.scene).usualCount : o.count;
 }
 
 /// What follows from the options that were given, and from those that were not.

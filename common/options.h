@@ -16,6 +16,7 @@ namespace ballpit {
 /// What the user asked for; a value not given is left to the scene.
 struct Options {
     std::string scene = "gravity_fall";
+    std::string sceneChoice;  ///< chapters with a --scene: what it can be
     Device device = Device::cpu;
     int count = 500;
     std::uint64_t seed = 1;

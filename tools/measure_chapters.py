@@ -195,6 +195,31 @@ def update(chapter, device, build, thread_counts):
             [header, *sorted(rows + others, key=lambda row: row[0] != "CPU")])
 
 
+METHODS = ["jacobi", "mass-split", "coloured", "warm", "small-steps", "penalty"]
+
+
+def compare_methods(build):
+    """Chapter 11's table: errors and work, the same on every machine, so one run and no times."""
+    program = "11_stability_reference"
+    command = [str(build / "bin" / program), "--device", "cpu", "--time", "--json"]
+    found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    with open(ROOT / "docs" / "results" / "chapter_11.csv", "w", newline="") as out:
+        out.write(f"# {program} --device cpu --time, without its times (tools/measure_chapters.py "
+                  f"11): the same on every machine. Commit {commit()}.\n")
+        table = csv.writer(out, lineterminator="\n")
+        table.writerow(["method", "gas: energy gained", "column: overlap / r", "pile: overlap / r",
+                        "crowd: fastest ball, m/s", "passes a step", "pair visits a ball and step"])
+        for method in METHODS:
+            gained, column, pile, crowd, passes, pairs = (
+                found[f"{method}:_{name}"] for name in (
+                    "gas,_energy_error", "column,_overlap_/_r", "pile,_overlap_/_r",
+                    "crowd,_fastest_m/s", "passes_a_step", "pile,_listed_pairs_a_ball"))
+            gained = 100 * gained
+            table.writerow([method, f"{gained:+.0f} %" if abs(gained) > 0.01 else "0 %",
+                            digits(column), digits(pile), digits(crowd), passes,
+                            digits(passes * pairs)])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("chapters", nargs="*", help="as 02 05 (default: all)")
@@ -202,9 +227,13 @@ def main():
     args = parser.parse_args()
     device = "cuda" if args.cuda else "cpu"
     build = ROOT / "build" / f"{device}-release"
-    for chapter in args.chapters or TABLES:
-        if chapter not in TABLES:
-            parser.error(f"unknown chapter '{chapter}': known are {', '.join(TABLES)}")
+    known = [*TABLES, "11"]
+    for chapter in args.chapters or known:
+        if chapter not in known:
+            parser.error(f"unknown chapter '{chapter}': known are {', '.join(known)}")
+        if chapter == "11":
+            compare_methods(build)
+            continue
         one_way = args.cuda or chapter == "09"  # its threads are not OpenMP's
         update(chapter, device, build, [""] if one_way else [1, 2])
 

@@ -15,6 +15,7 @@
 
 #include "common/algorithms.h"
 #include "common/atomics.cuh"
+//@starter #include "common/hole.cuh"
 #include "common/launch.cuh"
 #include "common/pair_list.cuh"
 
@@ -74,13 +75,18 @@ HD inline void giveColour(std::uint32_t k, const ColouringView& view) {
     const auto [a, b] = view.pairs.pairs[k];
     BodyColours &atA = view.bodies[a], &atB = view.bodies[b];
     const std::uint32_t round = (atA.round > atB.round ? atA.round : atB.round) + 1u;
-    const std::uint32_t used = atA.used | atB.used;
-    std::uint32_t colour = 0;
-    while (colour < colourCount && used >> colour & 1u) ++colour;
-    if (round > colouringRounds) colour = overflowColour;
-    if (colour < colourCount) {
-        atA.used |= 1u << colour;
-        atB.used |= 1u << colour;
+    std::uint32_t colour = overflowColour;
+    if (round <= colouringRounds) {
+        //@hole colour.give lines=7 "The first colour free at both bodies; then it is used at both"
+        //@starter TODO_HOLE("colour.give");
+        const std::uint32_t used = atA.used | atB.used;
+        colour = 0;
+        while (colour < colourCount && used >> colour & 1u) ++colour;
+        if (colour < colourCount) {
+            atA.used |= 1u << colour;
+            atB.used |= 1u << colour;
+        }
+        //@end
     }
     atA.round = atB.round = round;
     view.colours[k] = colour;
@@ -122,8 +128,11 @@ HD inline void bidForColour(int thread, int threads, ColouringView view) {
     visitShare(thread, threads, view.pairs, [&](std::uint32_t k) {
         if (view.colours[k] != noColour) return;
         const auto [a, b] = view.pairs.pairs[k];
+        //@hole colour.bid lines=2 "Bid the pair's priority at both its bodies; the smallest stays"
+        //@starter TODO_HOLE("colour.bid");
         lowerTo(view.best[a], hash.priorityOf(k));
         lowerTo(view.best[b], hash.priorityOf(k));
+        //@end
     });
 }
 
@@ -134,9 +143,12 @@ HD inline void takeColour(int thread, int threads, ColouringView view) {
         if (view.colours[k] != noColour) return;
         const auto [a, b] = view.pairs.pairs[k];
         const std::uint32_t priority = hash.priorityOf(k);
+        //@hole colour.take lines=3 "Who won at both bodies takes its colour and clears both bids"
+        //@starter TODO_HOLE("colour.take");
         if (view.best[a] != priority || view.best[b] != priority) return;
         giveColour(k, view);
         view.best[a] = view.best[b] = 0xFFFFFFFFu;
+        //@end
     });
 }
 

@@ -11,8 +11,8 @@
 // that bounce too little.
 #pragma once
 
-#include "07_impulse_response/impulse_response.cuh"
 #include "11_stability/contact_rules.cuh"
+#include "11_stability/effective_mass.cuh"
 
 namespace ballpit {
 
@@ -27,13 +27,15 @@ HD inline void computePairAlone(int thread, BodiesView bodies, ImpulseView view,
     });
 }
 
-/// Chapter 07's linking and gathering, without its splitting.
+/// Chapter 07's linking and gathering, without its splitting; or, as an exhibit, with it
+/// (`splitMasses`): then it is chapter 07's response in other words.
 class JacobiResponse : public Response {
 public:
     JacobiResponse(Device device, std::size_t bodyCount, std::size_t pairCapacity,
-                   const ContactRules& rules)
+                   const ContactRules& rules, bool splitMasses = false)
         : device_(device),
           rules_(rules),
+          splitMasses_(splitMasses),
           lists_(device, bodyCount, pairCapacity),
           counts_(device, bodyCount, "contactCounts"),
           normalsAndImpulses_(device, pairCapacity, "pairImpulses"),
@@ -46,6 +48,7 @@ public:
                                pushes_.view()};
         launch<linkAndCount>(device_, round.bodyCount, round.from, view);
         launch<computePairAlone>(device_, round.bodyCount, round.from, view, rules_);
+        if (splitMasses_) launch<splitAmongContacts>(device_, round.bodyCount, round.from, view);
         launch<collisionResponse>(device_, round.bodyCount, round, view);
     }
     void reserve(std::size_t pairCapacity) override {
@@ -60,6 +63,7 @@ public:
 private:
     Device device_;
     ContactRules rules_;
+    bool splitMasses_;
     ContactLists lists_;
     DeviceBuffer<ContactCounts> counts_;
     DeviceBuffer<Vec4> normalsAndImpulses_;

@@ -13,6 +13,7 @@
 #include "07_impulse_response/contact_lists.cuh"
 #include "07_impulse_response/impulse_response.cuh"
 #include "11_stability/reach.cuh"
+//@starter #include "common/hole.cuh"
 
 namespace ballpit {
 
@@ -43,9 +44,13 @@ HD inline float pressure(float penetration, float separation, float restitution,
                          const PenaltySettings& s) {
     constexpr float piSquared = 9.8696044f;
     const float logarithm = naturalLogarithm(restitution);
+    //@hole spring.force lines=3 "K and C from the contact's time and e; then what they do in h"
+    //@starter TODO_HOLE("spring.force");
+    //@starter return 0.0f * piSquared * logarithm;
     const float spring = (piSquared + logarithm * logarithm) / (s.contactTime * s.contactTime);
     const float dashpot = -2.0f * logarithm / s.contactTime;
     return s.h * (spring * penetration - dashpot * separation);
+    //@end
 }
 
 /// Along one axis: what the walls add to a body's velocity.

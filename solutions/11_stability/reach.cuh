@@ -37,6 +37,7 @@ HD inline void growByReach(int i, BodiesView bodies, ReachSettings settings, Vie
     grown[i] = withW(xyz(sphere), sphere.w + reach);
 }
 
+//@show reach
 /// Tells the host if body i has left its reach.
 HD inline void reportReach(int i, BodiesView bodies, View<const Vec4> grown,
                            View<StepStatus> status) {
@@ -46,6 +47,7 @@ HD inline void reportReach(int i, BodiesView bodies, View<const Vec4> grown,
     const bool within = lengthSquared(xyz(sphere) - xyz(grown[i])) <= reach * reach;
     if (!within) status[0].staleGrid = 1;
 }
+//@end
 
 /// Counts the pairs that do touch, for the statistics: the list has more.
 HD inline void countTouching(int i, View<const Vec4> positions, PairsView pairs,

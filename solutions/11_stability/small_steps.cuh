@@ -13,6 +13,7 @@
 #include "11_stability/colouring.cuh"
 #include "11_stability/contact_rules.cuh"
 #include "11_stability/reach.cuh"
+//@starter #include "common/hole.cuh"
 
 namespace ballpit {
 
@@ -86,7 +87,11 @@ HD inline void velocityFromPositions(int i, SmallStepView view, float h) {
     const BodiesView &from = view.round.from, &to = view.round.to;
     const Vec4 sphere = from.positions[i], moving = from.velocities[i];
     const Vec3 change = xyz(view.corrections[i]), place = xyz(sphere) + change;
+    //@hole small.velocity lines=1 "Its velocity is the way it made, divided by the time it took"
+    //@starter TODO_HOLE("small.velocity");
+    //@starter const Vec3 velocity = xyz(moving);
     const Vec3 velocity = xyz(moving) + (1.0f / h) * change;
+    //@end
     to.positions[i] = withW(place, sphere.w);
     to.velocities[i] = withW(velocity, moving.w);
     reportMotion(i, view.round, change, place, velocity);
@@ -112,8 +117,11 @@ HD inline void applyImpulse(Vec3 impulse, Vec4& velocityA, Vec4& velocityB) {
 HD inline void takeBackPush(std::uint32_t k, SmallStepView view, SmallStepSettings settings) {
     if (!isLively(k, view, settings.restitutionThreshold)) return;
     const auto [a, b] = view.round.pairs.pairs[k];
+    //@hole small.take_back lines=2 "Minus the impulse that would have made the push in time h"
+    //@starter TODO_HOLE("small.take_back");
     applyImpulse((-1.0f / settings.h) * xyz(view.pushes[k]), view.round.to.velocities[a],
                  view.round.to.velocities[b]);
+    //@end
     view.pushes[k].w = 1.0f;
 }
 
@@ -150,11 +158,15 @@ HD inline void settlePair(std::uint32_t k, SmallStepView view) {
     const Contact met = contactBetween(a, b, from);
     const float now = dot(xyz(velocityB) - xyz(velocityA), met.normal);
     const float inverseMassSum = velocityA.w + velocityB.w;
+    //@hole small.bounce lines=5 "The impulse: chapter 07's for a lively pair, no kick for another"
+    //@starter TODO_HOLE("small.bounce");
+    //@starter const float impulse = 0.0f;
     float impulse = (maximum(met.separation, 0.0f) - now) / inverseMassSum;
     if (push.w == 1.0f)
         impulse = impulseAlongNormal(
             minimum(now, 0.0f), combinedRestitution(from.restitutions[a], from.restitutions[b]),
             inverseMassSum);
+    //@end
     applyImpulse(impulse * met.normal, velocityA, velocityB);
 }
 

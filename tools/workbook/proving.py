@@ -43,7 +43,8 @@ def run_all(args, jobs_of, jobs_of_all=()):
         build.build([f"check_{chapter.label}_reference"])
         build.set_mine(chapter, {chapter})
     results = processes.results_of([job for _, _, job in planned])
-    for (label, name, _), problem in zip(planned, results):
+    # strict: reads the results to their end. A generator left before it would end all children.
+    for (label, name, _), problem in zip(planned, results, strict=True):
         outcomes.append({"chapter": label, "name": name, "problem": problem})
         if not args.json:
             print_outcome(f"{label} {name}", problem)

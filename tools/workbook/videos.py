@@ -176,7 +176,7 @@ def make_sheets(chosen, folder):
 def check(chosen):
     failed = 0
     jobs = [functools.partial(problem_of, recipe) for recipe in chosen]
-    for recipe, problem in zip(chosen, processes.results_of(jobs)):
+    for recipe, problem in zip(chosen, processes.results_of(jobs), strict=True):
         print_outcome(recipe.name, problem)
         failed += bool(problem)
     for problem in problems_of_folder():
