@@ -39,6 +39,7 @@ static int run(const Options& options) {
 }
 
 int main(int argc, char** argv) {
-    return runChapter(argc, argv, "Where methods fail: one scene under two of them",
-                      {.scene = "all", .sceneChoice = "all, or one of " + duelNames()}, run);
+    return runChapter(
+        argc, argv, "Where methods fail: one scene under two of them",
+        {.scene = "all", .sceneChoice = "all, or one of " + duelNames(), .frames = 240}, run);
 }
