@@ -3,7 +3,7 @@
 // step begins with, and two to work in. A step that fails half-way therefore loses nothing.
 #pragma once
 
-#include <algorithm>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -204,7 +204,7 @@ private:
         byBody.upload(values);
         const BodiesView state = view(state_);
         if (&field == &restitutions) {
-            smallestRestitution_ = *std::min_element(values.begin(), values.end());
+            smallestRestitution_ = std::accumulate(values.begin(), values.end(), 1.0f, minimum);
             launch<storeScalar>(device_, intCount(), state.ids, byBody.view(), state.restitutions);
         } else if (&field == &masses) {
             launch<storeInverseW>(device_, intCount(), state.ids, byBody.view(), state.velocities);

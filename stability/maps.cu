@@ -1,5 +1,4 @@
 // ballpit_maps: where each response holds and where it fails, as CSV. `./ballpit maps` draws them.
-#include <omp.h>
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
@@ -66,12 +65,12 @@ int run(const Asked& asked) {
     if (!std::filesystem::is_directory(asked.out))
         throw InputError("--out " + asked.out + ": is not a folder");
     const StopRequest stop;
+    const int threads = cpuThreadCount();
     for (const MapKind& kind : kinds) {
         const Map map = kind.make(asked.options);
         const double seconds = asked.options.coarse ? kind.coarseSeconds : kind.seconds;
         std::fprintf(stderr, "%s: %zu cells, about %.0f s on %d idle cores\n", kind.name,
-                     cellCount(map), std::ceil(seconds / omp_get_max_threads()),
-                     omp_get_max_threads());
+                     cellCount(map), std::ceil(seconds / threads), threads);
         const std::optional<Outcomes> outcomes = runMap(map, asked.options.device);
         constexpr int stoppedByUser = 130;
         if (!outcomes) return stoppedByUser;

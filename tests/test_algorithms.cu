@@ -5,10 +5,7 @@
 #include "03_sort/sort.cuh"
 #include "common/random.h"
 #include "tests/support.h"
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "tests/with_threads.h"
 
 namespace ballpit::test {
 
@@ -27,22 +24,6 @@ using namespace ballpit;
 namespace {
 
 using Numbers = std::vector<std::uint32_t>;
-
-/// Runs a scope on so many threads.
-class WithThreads {
-public:
-#ifdef _OPENMP
-    explicit WithThreads(int threads) : before_(omp_get_max_threads()) {
-        omp_set_num_threads(threads);
-    }
-    ~WithThreads() { omp_set_num_threads(before_); }
-
-private:
-    int before_;
-#else
-    explicit WithThreads(int) {}
-#endif
-};
 
 /// Around one, one block of threads, and one parallel loop or sort tile of the CPU; and many.
 const std::vector<int> sizes{0, 1, 2, 255, 256, 257, 2047, 2048, 2049, 100000};
@@ -109,7 +90,7 @@ TEST_CASE("sortPairs is the standard library's stable sort") {
     const int threads = GENERATE(1, 2, 3);
     const int count = GENERATE(from_range(sizes));
     CAPTURE(threads, count);
-    const WithThreads scope(threads);
+    const test::WithThreads scope(threads);
     for (const int keyBits : {1, 2, 5, 8, 11, 12, 16, 22, 23, 31, 32}) {
         CAPTURE(keyBits);
         // Keys with higher bits set too: those must not count.
@@ -157,7 +138,7 @@ TEST_CASE("exclusiveScan gives the sums before each element, and the total") {
     const int count = GENERATE(from_range(sizes));
     const std::uint32_t below = GENERATE(1, 2, 40000);  // below 1: all zero
     CAPTURE(threads, count, below);
-    const WithThreads scope(threads);
+    const test::WithThreads scope(threads);
     const Numbers counts = randomNumbers(count, below, 11);
     Numbers expected(counts.size() + 1, 0);
     std::partial_sum(counts.begin(), counts.end(), expected.begin() + 1);
@@ -175,7 +156,7 @@ TEST_CASE("reduceMaximum is the largest element, wherever it is") {
     const int threads = GENERATE(1, 2, 3);
     const int count = GENERATE(from_range(sizes));
     CAPTURE(threads, count);
-    const WithThreads scope(threads);
+    const test::WithThreads scope(threads);
     Scratch scratch(device, 0, "scratch");
     std::vector<float> values(static_cast<std::size_t>(count), -2.0f);
     for (const double place : {0.0, 0.5, 0.999999}) {
@@ -196,7 +177,7 @@ TEST_CASE("launch visits each index exactly once, in every order and on any numb
     const int threads = GENERATE(1, 2, 3);
     const int count = GENERATE(0, 1, 2, 3, 4, 255, 256, 257, 4097);
     CAPTURE(static_cast<int>(order), threads, count);
-    const WithThreads scope(threads);
+    const test::WithThreads scope(threads);
     const test::InOrder orderScope(order);
     auto visits = onDevice(device, Numbers(static_cast<std::size_t>(count), 0));
     auto outOfRange = onDevice(device, {0});

@@ -71,8 +71,10 @@ def results_of(jobs):
             for future in futures:
                 yield future.result()
         except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            stop_all()
+            # Also when the caller has seen the last result and lets go: then nothing is left.
+            if not all(future.done() for future in futures):
+                pool.shutdown(wait=False, cancel_futures=True)
+                stop_all()
             raise
 
 
