@@ -97,8 +97,10 @@ inline std::string ballsStruck(Side& side) {
 inline std::string fastestBall(Side& side) { return fourDigits(side.topSpeed()); }
 inline std::string speeds(Side& side) {
     std::string text;
-    for (const Vec3 v : side.balls().velocities)
-        text += (text.empty() ? "" : " ") + fourDigits(std::abs(v.x) < 1e-3f ? 0.0 : v.x);
+    for (const Vec3 v : side.balls().velocities) {
+        if (!text.empty()) text += ' ';
+        text += fourDigits(std::abs(v.x) < 1e-3f ? 0.0 : double(v.x));
+    }
     return text;
 }
 
