@@ -34,9 +34,9 @@ inline const std::vector<ResponseMethod>& rankedMethods() {
 }
 
 constexpr int pileCount = 400;
-inline Side settledPile(ResponseMethod method, const Options& options) {
+inline Side pileAfter(int steps, ResponseMethod method, const Options& options) {
     return Side(dull(stability::makeDeepPile(pileCount, options.seed), method), {method},
-                options.device, 240);
+                options.device, steps);
 }
 
 /// Errors in a gas, a column, a pile and a crowd; passes and listed pairs in the pile.
@@ -51,7 +51,7 @@ inline void tellRanking(Findings& findings, const Options& options) {
         findings.add(who + "gas, energy gained", under(80, gas).energyShare() - 1);
         findings.add(who + "column, overlap / r",
                      under(240, dull(stability::makeColumn(10, 0), method)).overlap());
-        Side pile = settledPile(method, options);
+        Side pile = pileAfter(240, method, options);
         findings.add(who + "pile, overlap / r", pile.overlap());
         findings.add(who + "crowd, fastest m/s",
                      under(10, dull(makePile(500, options.seed), method)).topSpeed());
@@ -61,12 +61,12 @@ inline void tellRanking(Findings& findings, const Options& options) {
     }
 }
 
-/// How long a step of the settled pile takes with each method; that of small steps stands for the
-/// chapter.
+/// How long a step of the pile takes with each method, once its balls have met; that of small steps
+/// stands for the chapter.
 inline void tellSpeeds(Findings& findings, const Options& options) {
     findings.add("count", std::int64_t{pileCount});
     for (const ResponseMethod method : rankedMethods()) {
-        Side pile = settledPile(method, options);
+        Side pile = pileAfter(60, method, options);
         const double time = medianMilliseconds(options.device, 31, [&] { pile.rehearse(); });
         findings.add(name(method) + ": milliseconds", time);
         if (method == ResponseMethod::smallSteps) findings.add("milliseconds", time);
