@@ -14,6 +14,7 @@ import time
 import unittest
 
 GRAVITY_FALL, BENCH = (os.path.abspath(path) for path in sys.argv[1:3])
+DUELS = os.path.join(os.path.dirname(GRAVITY_FALL), "11_stability_reference")
 HEADER = "x,y,z,vx,vy,vz,radius,mass,restitution\n"
 
 
@@ -70,6 +71,11 @@ class BadOptions(Folder):
                                     ("--iterations", "0", "at least 1")]:
             with self.subTest(option=option, value=value):
                 self.refuses([word], option, value)
+
+    def test_a_chapter_with_scenes_names_those_that_it_has(self):
+        self.refuses(["scene 'pillar'", "one of pocket, gas, column"], "--scene", "pillar",
+                     program=DUELS)
+        self.refuses(["shows one scene", "--scene"], "--png", "all.png", program=DUELS)
 
     def test_wrong_cameras_colours_and_stills(self):
         for words, *arguments in [

@@ -3,14 +3,20 @@
     python3 tests/test_proving.py
 """
 
+import argparse
+import contextlib
+import gc
+import io
 import json
 import sys
 import unittest
+from unittest import mock
 
 from fake_tools import PROJECT, Workbook
 
 sys.path.insert(0, str(PROJECT / "tools"))
-from workbook import mutants  # noqa: E402
+from workbook import mutants, processes, proving  # noqa: E402
+from workbook.chapters import Chapter  # noqa: E402
 from workbook.errors import ToolError  # noqa: E402
 
 CAUGHT = """# a comment
@@ -20,6 +26,18 @@ looks like a two in place
 -    return 1;
 +    return 2;
 """
+
+
+class Results(unittest.TestCase):
+    def test_after_the_last_result_other_programs_may_start(self):
+        args = argparse.Namespace(chapters=["01"], json=False)
+        chapter = Chapter(1, "01_first")
+        with mock.patch.object(proving.checking, "find_checked", return_value=chapter), \
+                mock.patch.object(proving, "build"), contextlib.redirect_stdout(io.StringIO()):
+            code = proving.run_all(args, lambda chapter: [("good", lambda: "")])
+        gc.collect()
+        self.assertEqual(code, 0)
+        self.assertEqual(processes.output_of([sys.executable, "-c", "print(7)"]), "7\n")
 
 
 class Authors(Workbook):

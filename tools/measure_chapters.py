@@ -201,18 +201,18 @@ METHODS = ["jacobi", "mass-split", "coloured", "warm", "small-steps", "penalty"]
 def compare_methods(build):
     """Chapter 11's table: errors and work, the same on every machine, so one run and no times."""
     program = "11_stability_reference"
-    command = [str(build / "bin" / program), "--device", "cpu", "--time", "--json"]
+    command = [str(build / "bin" / program), "--scene", "methods", "--device", "cpu", "--json"]
     found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
     with open(ROOT / "docs" / "results" / "chapter_11.csv", "w", newline="") as out:
-        out.write(f"# {program} --device cpu --time, without its times (tools/measure_chapters.py "
-                  f"11): the same on every machine. Commit {commit()}.\n")
+        out.write(f"# {program} --scene methods --device cpu (tools/measure_chapters.py 11): the "
+                  f"same on every machine. Commit {commit()}.\n")
         table = csv.writer(out, lineterminator="\n")
         table.writerow(["method", "gas: energy gained", "column: overlap / r", "pile: overlap / r",
                         "crowd: fastest ball, m/s", "passes a step", "pair visits a ball and step"])
         for method in METHODS:
             gained, column, pile, crowd, passes, pairs = (
                 found[f"{method}:_{name}"] for name in (
-                    "gas,_energy_error", "column,_overlap_/_r", "pile,_overlap_/_r",
+                    "gas,_energy_gained", "column,_overlap_/_r", "pile,_overlap_/_r",
                     "crowd,_fastest_m/s", "passes_a_step", "pile,_listed_pairs_a_ball"))
             gained = 100 * gained
             table.writerow([method, f"{gained:+.0f} %" if abs(gained) > 0.01 else "0 %",

@@ -22,9 +22,11 @@ struct Fighter {
 /// One side of a duel: a scene under one method.
 class Side {
 public:
-    Side(const Scene& scene, const Fighter& fighter, Device device)
+    /// After so many steps.
+    Side(const Scene& scene, const Fighter& fighter, Device device, int steps = 0)
         : scene_(scene), method_(fighter.method), simulator_(settings(fighter, device)) {
         simulator_.bodies().upload(scene.spheres);
+        for (int k = 0; k < steps; ++k) step();
     }
 
     /// One step; none if a ball is no longer a number: then all stays as it was before that.
@@ -97,8 +99,10 @@ inline std::string ballsStruck(Side& side) {
 inline std::string fastestBall(Side& side) { return fourDigits(side.topSpeed()); }
 inline std::string speeds(Side& side) {
     std::string text;
-    for (const Vec3 v : side.balls().velocities)
-        text += (text.empty() ? "" : " ") + fourDigits(std::abs(v.x) < 1e-3f ? 0.0 : v.x);
+    for (const Vec3 v : side.balls().velocities) {
+        if (!text.empty()) text += ' ';
+        text += fourDigits(std::abs(v.x) < 1e-3f ? 0.0 : double(v.x));
+    }
     return text;
 }
 
@@ -180,12 +184,17 @@ inline std::string duelNames() {
     return names;
 }
 
+/// What --scene can be.
+inline std::string sceneChoice() {
+    return "all, methods (all methods in the same scenes), or one of " + duelNames();
+}
+
 /// The duels that --scene asks for. InputError for an unknown name.
 inline std::vector<Duel> duelsNamed(const std::string& name) {
     std::vector<Duel> wanted;
     for (const Duel& duel : allDuels())
         if (name == "all" || name == duel.scene) wanted.push_back(duel);
-    if (wanted.empty()) throw InputError("scene '" + name + "': all, or one of " + duelNames());
+    if (wanted.empty()) throw InputError("scene '" + name + "': " + sceneChoice());
     return wanted;
 }
 

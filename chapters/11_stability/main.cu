@@ -1,5 +1,5 @@
-// Chapter 11's executable: scenes that one method fails and another holds, side by side; with
-// --time, how all methods fare in the same three scenes, and how fast they are.
+// Chapter 11's executable: scenes that one method fails and another holds, side by side; and how
+// all methods fare in the same scenes (--scene methods), or how fast they are (--time).
 #include "chapters/11_stability/duel_film.cuh"
 #include "chapters/11_stability/examples.cuh"
 #include "chapters/11_stability/ranking.cuh"
@@ -25,14 +25,18 @@ static void tell(Findings& findings, const Duel& duel, const Options& options) {
 }
 
 static int run(const Options& options) {
+    Findings findings("11 stability: one scene, two methods");
+    if (options.time || options.scene == "methods") {
+        options.time ? tellSpeeds(findings, options) : tellRanking(findings, options);
+        findings.print(options.json);
+        return 0;
+    }
     const std::vector<Duel> duels = duelsNamed(options.scene);
     const bool isShown = options.isFilmed() || !options.png.empty();
     if (isShown && duels.size() > 1)
         throw InputError("a picture or a film shows one scene: say which with --scene");
-    Findings findings("11 stability: one scene, two methods");
     for (const Duel& duel : duels) tell(findings, duel, options);
     tellExample(findings);
-    if (options.time) tellRanking(findings, options);
     findings.print(options.json);
     if (isShown) filmDuel(duels.front(), options);
     return 0;
@@ -40,5 +44,5 @@ static int run(const Options& options) {
 
 int main(int argc, char** argv) {
     return runChapter(argc, argv, "Where methods fail: one scene under two of them",
-                      {.scene = "all", .sceneChoice = "all, or one of " + duelNames()}, run);
+                      {.scene = "all", .sceneChoice = sceneChoice(), .frames = 240}, run);
 }

@@ -26,35 +26,50 @@ inline Scene dull(Scene scene, ResponseMethod method) {
     return scene;
 }
 
-inline double overlapAfter(const Scene& scene, ResponseMethod method, Device device, int steps) {
-    Side side(scene, {method}, device);
-    for (int k = 0; k < steps; ++k) side.step();
-    return side.overlap();
+inline const std::vector<ResponseMethod>& rankedMethods() {
+    using enum ResponseMethod;
+    static const std::vector<ResponseMethod> methods{jacobi, massSplit,  coloured,
+                                                     warm,   smallSteps, penalty};
+    return methods;
 }
 
-/// Errors in the gas, the column and the pile of the duels; passes, contacts and time in the pile.
+constexpr int pileCount = 400;
+inline Side pileAfter(int steps, ResponseMethod method, const Options& options) {
+    return Side(dull(stability::makeDeepPile(pileCount, options.seed), method), {method},
+                options.device, steps);
+}
+
+/// Errors in a gas, a column, a pile and a crowd; passes and listed pairs in the pile.
 inline void tellRanking(Findings& findings, const Options& options) {
-    using enum ResponseMethod;
-    for (const ResponseMethod method : {jacobi, massSplit, coloured, warm, smallSteps, penalty}) {
+    for (const ResponseMethod method : rankedMethods()) {
         const std::string who = name(method) + ": ";
-        const Device device = options.device;
-        Side gas(stability::makeGasOf({.count = 216, .volumeShare = 0.4f, .seed = options.seed}),
-                 {method}, device);
-        for (int k = 0; k < 80; ++k) gas.step();
-        findings.add(who + "gas, energy error", gas.energyShare() - 1);
+        const auto under = [&](int steps, const Scene& scene) {
+            return Side(scene, {method}, options.device, steps);
+        };
+        const Scene gas =
+            stability::makeGasOf({.count = 216, .volumeShare = 0.4f, .seed = options.seed});
+        findings.add(who + "gas, energy gained", under(80, gas).energyShare() - 1);
         findings.add(who + "column, overlap / r",
-                     overlapAfter(dull(stability::makeColumn(10, 0), method), method, device, 240));
-        Side pile(dull(stability::makeDeepPile(400, options.seed), method), {method}, device);
-        for (int k = 0; k < 240; ++k) pile.step();
+                     under(240, dull(stability::makeColumn(10, 0), method)).overlap());
+        Side pile = pileAfter(240, method, options);
         findings.add(who + "pile, overlap / r", pile.overlap());
-        Side crowd(dull(makePile(500, options.seed), method), {method}, device);
-        for (int k = 0; k < 10; ++k) crowd.step();
-        findings.add(who + "crowd, fastest m/s", crowd.topSpeed());
+        findings.add(who + "crowd, fastest m/s",
+                     under(10, dull(makePile(500, options.seed), method)).topSpeed());
         findings.add(who + "passes a step", std::int64_t{passesOf(method, pile.knobs())});
         findings.add(who + "pile, listed pairs a ball",
-                     static_cast<double>(pile.listedPairs()) / 400.0);
-        findings.add(who + "pile, milliseconds a step",
-                     medianMilliseconds(device, 31, [&] { pile.rehearse(); }));
+                     static_cast<double>(pile.listedPairs()) / pileCount);
+    }
+}
+
+/// How long a step of the pile takes with each method, once its balls have met; that of small steps
+/// stands for the chapter.
+inline void tellSpeeds(Findings& findings, const Options& options) {
+    findings.add("count", std::int64_t{pileCount});
+    for (const ResponseMethod method : rankedMethods()) {
+        Side pile = pileAfter(60, method, options);
+        const double time = medianMilliseconds(options.device, 31, [&] { pile.rehearse(); });
+        findings.add(name(method) + ": milliseconds", time);
+        if (method == ResponseMethod::smallSteps) findings.add("milliseconds", time);
     }
 }
 

@@ -12,8 +12,10 @@ using enum ResponseMethod;
 template <class Value>
 std::string ofEach(const std::vector<ResponseMethod>& methods, Value value) {
     std::string found;
-    for (const ResponseMethod method : methods)
-        found += (found.empty() ? "" : ", ") + name(method) + " " + brief(value(method));
+    for (const ResponseMethod method : methods) {
+        if (!found.empty()) found += ", ";
+        found += name(method) + " " + brief(value(method));
+    }
     return found;
 }
 

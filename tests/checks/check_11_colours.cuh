@@ -119,7 +119,13 @@ inline void guessColours(Report& report, const Coloured& got) {
          {"the greatest priority wins; it is the smallest", like(Giving::greatestFirst)},
          {"a colour is marked as used at the pair's first ball only", like(Giving::marksFirstOnly)},
          {"only the first ball was asked which colours are free", like(Giving::looksAtFirstOnly)},
-         {"the pairs went by their numbers, not by their priorities", like(Giving::asListed)}});
+         {"the pairs went by their numbers, not by their priorities", like(Giving::asListed)},
+         {"pairs are left over that could have a colour: their bids never win", [&] {
+              const auto colours = got.colours(), right = coloursOneByOne(got.pairs());
+              for (std::size_t k = 0; k < right.size(); ++k)
+                  if (colours[k] >= overflowColour && right[k] < overflowColour) return true;
+              return false;
+          }}});
 }
 
 /// Compares every pair's colour with the oracle's.

@@ -92,7 +92,7 @@ def draw_chart(figure, left, title, curves, powers):
 
 
 FIGURES = {"colours": colours, "duels": duels}
-PICTURES = {"pile": ["--scene", "pile", "--device", "cpu", "--frames", 240, "--pitch", 8,
+PICTURES = {"pile": ["--scene", "pile", "--device", "cpu", "--pitch", 8,
                      "--width", 960, "--height", 540],
-            "column": ["--scene", "column", "--device", "cpu", "--frames", 240, "--pitch", 5,
+            "column": ["--scene", "column", "--device", "cpu", "--pitch", 5,
                        "--width", 960, "--height", 540]}
