@@ -174,6 +174,20 @@ TEST_CASE("thousands of balls above one place shade the floor no more than the d
     }
 }
 
+TEST_CASE("a crowd in which only some balls cast shade still shades the floor") {
+    const OffscreenContext context;
+    const Camera camera = frameWorld(world);
+    const Vec3 spot{0.3f, world.lower.y, 0.4f}, beside = spot + Vec3{0.32f, 0, 0};
+    const auto brightness = [&](std::size_t count) {
+        const std::vector<Ball> pile(count, Ball{spot + Vec3{0, 0.6f, 0}, 0.3f, red});
+        const DrawStyle style{.shape = BallShape::points};
+        return colorWhere(render(camera, 320, 180, pile, style), camera, beside).x;
+    };
+    const float single = brightness(1);
+    CHECK(single < brightness(0) - 0.02f);
+    for (const std::size_t count : {100'001u, 250'000u}) CHECK(brightness(count) == single);
+}
+
 TEST_CASE("points shade the floor as squares do") {
     const OffscreenContext context;
     const Camera camera = frameWorld(world);

@@ -140,16 +140,18 @@ void BallPoints::draw(const Sight& sight) const {
     program_.use();
     sight.tell(program_);
     program_.set("hardEdges", 1.0f);
-    drawSquares();
+    drawSquares(taken_->count);
     glUseProgram(0);
 }
 
-void BallPoints::drawSquares() const {
+void BallPoints::drawSquares(std::size_t most) const {
+    if (taken_->count == 0) return;
+    const std::size_t every = (taken_->count + most - 1) / most;
     glEnable(GL_VERTEX_PROGRAM_POINT_SIZE);
     glEnable(GL_POINT_SPRITE);
-    taken_->positionBuffer.attribute(0, 4, 0, sizeof(Vec4));
-    taken_->colorBuffer.attribute(1, 3, 0, sizeof(Vec3));
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(taken_->count));
+    taken_->positionBuffer.attribute(0, 4, 0, every * sizeof(Vec4));
+    taken_->colorBuffer.attribute(1, 3, 0, every * sizeof(Vec3));
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(taken_->count / every));
     disableAttributes();
     glDisable(GL_POINT_SPRITE);
     glDisable(GL_VERTEX_PROGRAM_POINT_SIZE);

@@ -65,7 +65,8 @@ public:
     bool isTooLarge(float pixelRadius) const;
 
     void draw(const Sight& sight) const;
-    void drawSquares() const;
+    /// Draws at most `most` of the points, spread evenly over the buffer, with the program in use.
+    void drawSquares(std::size_t most) const;
 
 private:
     struct Store {

@@ -11,6 +11,9 @@ namespace ballpit {
 namespace {
 
 constexpr int longestSide = 1024;  // texels along the floor's longer side
+/// Of more balls only some cast shade: their blobs lie on each other anyway, and blending a million
+/// of them took an H100 longer than drawing the balls.
+constexpr std::size_t mostShades = 100'000;
 
 void vertex(Vec3 p) { glVertex3f(p.x, p.y, p.z); }
 
@@ -68,8 +71,8 @@ void Stage::forgetShade() {
     glClear(GL_COLOR_BUFFER_BIT);
 }
 
-template <class Shapes>
-void Stage::paintShade(const OpenGLProgram& program, const Shapes& shapes) {
+template <class Draw>
+void Stage::paintShade(const OpenGLProgram& program, Draw drawSquares) {
     forgetShade();
     glPushAttrib(GL_ALL_ATTRIB_BITS);
     glDisable(GL_DEPTH_TEST);
@@ -81,14 +84,18 @@ void Stage::paintShade(const OpenGLProgram& program, const Shapes& shapes) {
     program.set("floorCorner", world_.lower);
     program.set("floorSize", size.x, size.z);
     program.set("texels", static_cast<float>(texelsX_), static_cast<float>(texelsZ_));
-    shapes.drawSquares();
+    drawSquares();
     glUseProgram(0);
     glBlendEquation(GL_FUNC_ADD);
     glPopAttrib();
 }
 
-void Stage::shade(const BallQuads& quads) { paintShade(quadShade_, quads); }
-void Stage::shade(const BallPoints& points) { paintShade(pointShade_, points); }
+void Stage::shade(const BallQuads& quads) {
+    paintShade(quadShade_, [&] { quads.drawSquares(); });
+}
+void Stage::shade(const BallPoints& points) {
+    paintShade(pointShade_, [&] { points.drawSquares(mostShades); });
+}
 
 void Stage::drawBackground() const {
     glPushMatrix();

@@ -24,8 +24,8 @@ public:
     void drawLines() const;
 
 private:
-    template <class Shapes>
-    void paintShade(const OpenGLProgram& program, const Shapes& shapes);
+    template <class Draw>
+    void paintShade(const OpenGLProgram& program, Draw drawSquares);
     void bindTexture() const;
 
     Bounds world_;
