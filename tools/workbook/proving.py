@@ -170,11 +170,16 @@ def hunt(chapter, mutant, texts, args):
                                 f"mutant_{mutant.name}", texts)
     if problem:
         return problem
-    verdict = verdict_on(program, chapter, args)
-    # On a busy machine the threads of a race may never meet: then it cannot show.
-    tries = RACE_TRIES if mutant.state == "RACY" else 1
-    while verdict.state == "CORRECT" and (tries := tries - 1):
-        verdict = verdict_on(program, chapter, args)
+    # On a busy machine the threads of a race may hardly meet: then it shows in part, or not at all.
+    for _ in range(RACE_TRIES if mutant.state == "RACY" else 1):
+        problem = not_rejected(mutant, verdict_on(program, chapter, args))
+        if not problem:
+            break
+    return problem or (save_picture(chapter, mutant, program, args) if mutant.picture else "")
+
+
+def not_rejected(mutant, verdict):
+    """What this verdict on a mutant lacks; "" if nothing."""
     reports = verdict.rejects(mutant.caught_by)
     if verdict.state != mutant.state:
         return f"the verdict is {verdict.state}, not {mutant.state}"
@@ -184,7 +189,7 @@ def hunt(chapter, mutant, texts, args):
     guesses = [report.get("looks_like", "") for report in reports]
     if not any(mutant.looks_like in guess for guess in guesses):
         return f"no guess says '{mutant.looks_like}': {words(filter(None, guesses))}"
-    return save_picture(chapter, mutant, program, args) if mutant.picture else ""
+    return ""
 
 
 def save_picture(chapter, mutant, program, args):
