@@ -2,7 +2,7 @@
 #include "08_sphere_rendering/opengl_program.h"
 
 #include <array>
-#include <regex>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 
@@ -11,11 +11,11 @@ namespace {
 
 /// The line that a message like "0:12(5): error" (Mesa) or "0(12) : error" (NVIDIA) is about.
 std::string lineNamed(const std::string& message, const std::string& source) {
-    std::smatch match;
-    if (!std::regex_search(message, match, std::regex(R"(\b0[:(](\d+))"))) return "";
+    int number = 0;
+    if (std::sscanf(message.c_str(), "0%*1[:(]%d", &number) != 1) return "";
     std::istringstream lines(source);
     std::string line;
-    for (int number = std::stoi(match[1]); number > 0; --number)
+    for (; number > 0; --number)
         if (!std::getline(lines, line)) return "";
     return "; the line is: " + line;
 }
