@@ -1,4 +1,5 @@
 // The picture is right: place, size, colour, order and orientation of balls.
+#include "08_sphere_rendering/opengl_program.h"
 #include "common/error.h"
 #include "common/offscreen_context.h"
 #include "tests/pictures.h"
@@ -162,6 +163,20 @@ TEST_CASE("a ball that is not finite is left out, and the others are drawn as ev
     // In this order a lost ball would also keep the others from being sorted.
     const Frame frame = render(camera, 320, 180, {farthest, nearest, lost, gone, middle});
     CHECK(same(frame, render(camera, 320, 180, {farthest, middle, nearest})));
+}
+
+TEST_CASE("a shader that the driver refuses is named with the line that it means") {
+    const OffscreenContext context;
+    const std::string good = "void main() { gl_Position = vec4(0.0); }";
+    const std::string bad = "#version 120\nvoid main() {\n    gl_FragColor = no_such_name;\n}\n";
+    std::string words;
+    try {
+        const OpenGLProgram program(good, bad);
+    } catch (const std::runtime_error& error) {
+        words = error.what();
+    }
+    CHECK(words.starts_with("the driver refused a shader: "));
+    CHECK(words.ends_with("; the line is:     gl_FragColor = no_such_name;"));
 }
 
 TEST_CASE("the renderer refuses sizes that cannot be") {
