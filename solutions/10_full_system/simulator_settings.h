@@ -12,6 +12,15 @@
 
 namespace ballpit {
 
+/// How touching pairs are found.
+enum class BroadPhaseMethod {
+    grid,  ///< bodies sorted into cells, 27 cells searched
+    naive  ///< every body against every other: one cell for all, so nothing is sorted or moved
+};
+
+/// Larger than any world: the edge of the one cell of BroadPhaseMethod::naive, m.
+constexpr float oneCellForAll = 1e9f;
+
 /// The response's knobs (iterations, ...) come from common/response_method.h.
 struct SimulatorSettings : ResponseKnobs {
     int objects = 500;
@@ -22,6 +31,7 @@ struct SimulatorSettings : ResponseKnobs {
     Vec3 gravity{0, -9.81f, 0};  ///< m/s^2
     float damping = 0.01f;       ///< 1/s
     ResponseMethod response = ResponseMethod::massSplit;
+    BroadPhaseMethod broadPhase = BroadPhaseMethod::grid;
     std::size_t pairCapacity = 0;  ///< pairs to make room for at first; 0: four a body
     bool growPairs = true;         ///< on overflow: grow and redo, or fail
     bool timeStages = false;       ///< fills StepStats::stages, at the price of the CUDA graph
