@@ -34,6 +34,9 @@ struct Metrics {
 /// Bodies that are not finite are counted and left out of the sums.
 Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt);
 
+/// J: the shadow energy alone, without the search for contacts.
+double shadowEnergyOf(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt);
+
 /// 64 bits over the positions and velocities in body order: equal states, and hardly any others,
 /// have equal hashes.
 std::uint64_t stateHash(const Spheres& spheres);
