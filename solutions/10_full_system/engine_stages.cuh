@@ -163,8 +163,8 @@ private:
         return s;
     }
 
-    /// Before it is built for the first time, a grid holds nobody; one cell for all holds everybody,
-    /// for ever.
+    /// Before it is built for the first time, a grid holds nobody; one cell for all holds
+    /// everybody, for ever.
     void prepareGrid() {
         grid_.cellStarts.fill(0);
         grid_.cellEnds.fill(0);

@@ -41,8 +41,8 @@ public:
     /// Does all of a step's work, but keeps the state from before it. For measuring.
     StepStats rehearseStep() { return attemptUntilComplete(); }
 
-    /// Goes on with other settings from the next step on. Number of bodies, world and device must be
-    /// those there are; the bodies stay as they are. InputError as from the constructor.
+    /// Goes on with other settings from the next step on. Number of bodies, world and device must
+    /// be those there are; the bodies stay as they are. InputError as from the constructor.
     void change(const SimulatorSettings& settings) {
         adopt(settings);
         forgetRecordings();
@@ -168,6 +168,7 @@ private:
             }
             //@end
             stats.collisions = status.collisions;
+            stats.listed = status.pairsNeeded;
             stats.outside = status.outside;
             break;
         }

@@ -26,14 +26,6 @@ Box spanOf(const SceneFacts& f, const World& w) {
             overlap(f.span.lower.z, f.span.upper.z, w.walls.lower.z, w.walls.upper.z)};
 }
 
-/// m^2: what the balls cover, seen along gravity (the axis in which it is strongest).
-double footprint(const SceneFacts& f, const World& w) {
-    const Box s = spanOf(f, w);
-    const double x = std::fabs(w.gravity.x), y = std::fabs(w.gravity.y), z = std::fabs(w.gravity.z);
-    const double area = y >= x && y >= z ? s.x * s.z : x >= z ? s.y * s.z : s.x * s.y;
-    return std::max(area, pi * f.smallestRadius * f.smallestRadius);
-}
-
 }  // namespace
 
 World worldOf(const Scene& scene) {
@@ -52,15 +44,22 @@ double volumeShare(const SceneFacts& f, const World& w) {
     return volume > 0 ? w.ballVolume / volume : 1.0;
 }
 
+double floorCovered(const SceneFacts& f, const World& w) {
+    const Box s = spanOf(f, w);
+    const double x = std::fabs(w.gravity.x), y = std::fabs(w.gravity.y), z = std::fabs(w.gravity.z);
+    const double area = y >= x && y >= z ? s.x * s.z : x >= z ? s.y * s.z : s.x * s.y;
+    return std::max(area, pi * f.smallestRadius * f.smallestRadius);
+}
+
 double depthInBalls(const SceneFacts& f, const World& w) {
     if (length(w.gravity) == 0.0f) return 0;
-    return w.ballVolume / heapedShare / footprint(f, w) / (2 * w.meanRadius);
+    return w.ballVolume / heapedShare / floorCovered(f, w) / (2 * w.meanRadius);
 }
 
 double loadOnLightest(const SceneFacts& f, const World& w) {
     if (length(w.gravity) == 0.0f) return 0;
     const double square = 4.0 * f.smallestRadius * f.smallestRadius;
-    const double share = std::min(1.0, square / footprint(f, w));
+    const double share = std::min(1.0, square / floorCovered(f, w));
     return (w.ballMass - f.smallestMass) * share / f.smallestMass;
 }
 

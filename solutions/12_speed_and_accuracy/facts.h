@@ -9,14 +9,14 @@ namespace ballpit {
 
 /// What stays the same during a run.
 struct World {
-    Bounds walls;        ///< m
-    Vec3 gravity;        ///< m/s^2
-    float damping;       ///< 1/s
-    float frame;         ///< s: the time between two pictures, or two readings of the state
-    float cellSize;      ///< m: what the scene asks for
-    double ballVolume;   ///< m^3, of all balls
-    double ballMass;     ///< kg, of all balls
-    double meanRadius;   ///< m
+    Bounds walls;       ///< m
+    Vec3 gravity;       ///< m/s^2
+    float damping;      ///< 1/s
+    float frame;        ///< s: the time between two pictures, or two readings of the state
+    float cellSize;     ///< m: what the scene asks for
+    double ballVolume;  ///< m^3, of all balls
+    double ballMass;    ///< kg, of all balls
+    double meanRadius;  ///< m
 };
 
 /// The scene's world. Sums over the balls are made here, once: in double precision, in body order.
@@ -40,6 +40,9 @@ struct SceneFacts {
 
 /// The share of the box around the balls, as far as it lies within the walls, that is ball.
 double volumeShare(const SceneFacts& facts, const World& world);
+
+/// m^2: what the balls cover, seen along gravity (the axis in which it is strongest).
+double floorCovered(const SceneFacts& facts, const World& world);
 
 /// How high the balls would lie, in balls, if they were heaped on the floor below where they are:
 /// a heap of balls at random is 0.6 ball. 0 without gravity.

@@ -1,7 +1,7 @@
 // Chapter 12: a scene's facts, read on the device. Lane l goes over the bodies l, l + lanes,
 // l + 2 lanes, ... and keeps the smallest and largest of what it sees; the host folds the lanes'
-// notes, in order. Nothing is added by atomics but integers, and every sum has a fixed shape: so the
-// facts, and the plan made from them, are the same bits on every machine.
+// notes, in order. Nothing is added by atomics but integers, and every sum has a fixed shape: so
+// the facts, and the plan made from them, are the same bits on every machine.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct BodyNotes {
 /// What a lane has seen of the pairs in which one of its bodies is the first.
 struct PairNotes {
     float massRatio, deepestOverlap;
-    std::uint32_t mostContacts;
+    std::uint32_t mostContacts, pairs;
 };
 
 HD inline Vec3 lowerOf(Vec3 a, Vec3 b) {
@@ -40,8 +40,8 @@ HD inline BodyNotes notesOf(int i, const BodiesView& bodies) {
     const Vec4 sphere = bodies.positions[i], moving = bodies.velocities[i];
     const Vec3 r{sphere.w, sphere.w, sphere.w};
     const float squaredSpeed = lengthSquared(xyz(moving)), e = bodies.restitutions[i];
-    return {xyz(sphere) - r, xyz(sphere) + r, sphere.w, sphere.w,  squaredSpeed, squaredSpeed,
-            e,               e,               moving.w, moving.w};
+    return {xyz(sphere) - r, xyz(sphere) + r, sphere.w, sphere.w, squaredSpeed, squaredSpeed, e, e,
+            moving.w,        moving.w};
 }
 
 /// Two notes in one.
@@ -87,13 +87,14 @@ HD inline float overlapOf(Vec4 a, Vec4 b) {
 /// Lane `lane`, of its bodies' pairs and numbers of contacts.
 HD inline void notePairs(int lane, int lanes, int count, BodiesView bodies, PairsView pairs,
                          View<const std::uint32_t> contacts, View<PairNotes> notes) {
-    PairNotes seen{1.0f, 0.0f, 0};
+    PairNotes seen{1.0f, 0.0f, 0, 0};
     for (int i = lane; i < count; i += lanes) {
         seen.mostContacts = contacts[i] > seen.mostContacts ? contacts[i] : seen.mostContacts;
+        seen.pairs += pairs.endOf(i) - pairs.starts[i];
         for (std::uint32_t k = pairs.starts[i]; k < pairs.endOf(i); ++k) {
             const std::uint32_t j = pairs.pairs[k].second;
-            seen.massRatio = maximum(
-                seen.massRatio, massRatioOf(bodies.velocities[i].w, bodies.velocities[j].w));
+            seen.massRatio = maximum(seen.massRatio,
+                                     massRatioOf(bodies.velocities[i].w, bodies.velocities[j].w));
             seen.deepestOverlap =
                 maximum(seen.deepestOverlap, overlapOf(bodies.positions[i], bodies.positions[j]));
         }
@@ -143,13 +144,12 @@ private:
         f.largestMass = 1.0f / all.smallestInverseMass;
     }
     void addPairs(SceneFacts& f) {
-        std::uint32_t contacts = 0;
         for (const PairNotes& lane : pairNotes_.download()) {
             f.massRatio = std::max(f.massRatio, lane.massRatio);
             f.deepestOverlap = std::max(f.deepestOverlap, lane.deepestOverlap);
-            contacts = std::max(contacts, lane.mostContacts);
+            f.mostContacts = std::max(f.mostContacts, lane.mostContacts);
+            f.pairs += lane.pairs;
         }
-        f.mostContacts = contacts;
     }
 
     Device device_;
