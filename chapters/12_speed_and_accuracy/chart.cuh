@@ -16,13 +16,13 @@ using Questions = std::vector<const stability::Question*>;
 
 /// "few", "every", or one scene's name. InputError for an unknown name, with the known ones.
 inline Questions questionsNamed(const std::string& name) {
-    const std::string few = "six_cubed elastic_gas mixed_radii";
-    Questions wanted;
-    for (const stability::Question& question : stability::questions())
-        if (name == "every" || (name == "few" && few.find(question.scene) != std::string::npos))
-            wanted.push_back(&question);
-    if (wanted.empty()) wanted.push_back(&stability::question(name));
-    return wanted;
+    using stability::question;
+    if (name == "few")
+        return {&question("six_cubed"), &question("elastic_gas"), &question("mixed_radii")};
+    if (name != "every") return {&question(name)};
+    Questions all;
+    for (const stability::Question& each : stability::questions()) all.push_back(&each);
+    return all;
 }
 
 /// What --scene can be.

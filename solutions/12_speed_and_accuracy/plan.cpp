@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "12_speed_and_accuracy/parts.h"
 #include "common/error.h"
 
 namespace ballpit {
@@ -42,14 +43,6 @@ struct Case {
     }
 };
 
-/// The smallest whole number of parts, at least 1, in which `whole` is at most `limit` each. If
-/// there are `now` parts already, they stay unless that is too few, or less than half would do.
-int partsFor(double whole, double limit, int most, int now) {
-    const double exact = limit > 0 ? whole / limit : most;
-    const int wanted = static_cast<int>(std::clamp(std::ceil(exact - 1e-9), 1.0, double(most)));
-    return now > 0 && wanted <= now && 2 * wanted > now ? now : wanted;
-}
-
 /// What a scene asks does not change while it runs.
 Aim aimOf(const Case& c) {
     if (c.before) return c.before->aim;
@@ -78,8 +71,7 @@ bool isNarrow(const Case& c) {
 double restShare(const Case& c) { return isNarrow(c) ? c.t.columnShare : c.t.heapShare; }
 
 int substepsForLoad(const Case& c, int now) {
-    return partsFor(std::sqrt(restShare(c) * columnLaw(c)), std::sqrt(c.tolerance), mostSubsteps,
-                    now);
+    return substepsFor(restShare(c) * columnLaw(c), c.tolerance, mostSubsteps, now);
 }
 
 /// Overlap of a column whose impulses start from the last step's, in radii, after so many passes.

@@ -100,44 +100,53 @@ inline std::vector<bool> frontBySorting(const Points& points) {
     return front;
 }
 
-/// The front as someone makes it with this mistake: which points count, and who beats whom.
+/// The front as someone makes it with a mistake: which points are shown, which can beat others, and
+/// whether a large error counts as the better one.
 struct FrontMistake {
     const char* words;
-    bool (*isShown)(const WorkPoint&);
-    bool (*canBeat)(const WorkPoint&);
+    bool showsFailed, showsNaN, failedBeat, largeIsBetter;
+
+    std::vector<bool> front(const Points& points) const {
+        std::vector<bool> front;
+        for (const WorkPoint& p : points)
+            front.push_back(isShown(p) && std::none_of(points.begin(), points.end(),
+                                                       [&](auto& q) { return beats(q, p); }));
+        return front;
+    }
+
+private:
+    bool isShown(const WorkPoint& p) const {
+        return (showsFailed || !p.failed) && (showsNaN || !std::isnan(p.error));
+    }
+    bool beats(const WorkPoint& q, const WorkPoint& p) const {
+        const double mine = largeIsBetter ? -q.error : q.error,
+                     other = largeIsBetter ? -p.error : p.error;
+        return (failedBeat || !q.failed) && q.speed >= p.speed && mine <= other &&
+               (q.speed > p.speed || mine < other);
+    }
 };
 
-inline std::vector<bool> wrongFront(const Points& points, const FrontMistake& mistake) {
-    std::vector<bool> front;
-    for (const WorkPoint& p : points)
-        front.push_back(mistake.isShown(p) &&
-                        std::none_of(points.begin(), points.end(), [&](const WorkPoint& q) {
-                            return mistake.canBeat(q) && q.speed >= p.speed && q.error <= p.error &&
-                                   (q.speed > p.speed || q.error < p.error);
-                        }));
-    return front;
-}
-
-/// The mistakes that can be told apart by these points.
+/// What these points can tell apart.
 inline void guessFront(Report& report, const Points& points) {
-    using P = const WorkPoint&;
-    const auto good = [](P p) { return !p.failed && !std::isnan(p.error); };
-    const auto any = [](P) { return true; };
     const std::vector<bool> got = paretoFront(points);
-    std::vector<Mistake> mistakes{
-        {"every run with a result is on it: nobody was compared", [&] {
-             return got == wrongFront(points, {"", good, [](P) { return false; }});
-         }}};
+    std::vector<Mistake> mistakes{{"every run with a result is on it: nobody was compared", [&] {
+                                       std::vector<bool> all;
+                                       for (const WorkPoint& p : points)
+                                           all.push_back(!p.failed && !std::isnan(p.error));
+                                       return got == all;
+                                   }}};
+    const char* early = "failed runs are on it: a run that broke off early is fast";
     for (const FrontMistake& mistake :
-         {FrontMistake{"failed runs are on it: a run that broke off early is fast", any, any},
-          FrontMistake{"failed runs are on it: a run that broke off early is fast", any, good},
-          FrontMistake{"failed runs beat others: what broke off early cannot beat anyone", good,
-                       any},
-          FrontMistake{"a run whose error is NaN is on it: nothing is smaller than NaN",
-                       [](P p) { return !p.failed; }, good}})
-        mistakes.push_back({mistake.words, [&points, &got, mistake] {
-                                return got == wrongFront(points, mistake);
-                            }});
+         {FrontMistake{early, true, true, true, false},
+          FrontMistake{early, true, false, true, false},
+          FrontMistake{early, true, true, false, false},
+          FrontMistake{"failed runs beat others: what broke off early cannot beat anyone", false,
+                       false, true, false},
+          FrontMistake{"a run whose error is NaN is on it: nothing is smaller than NaN", false,
+                       true, false, false},
+          FrontMistake{"a large error is taken for the better one", false, false, false, true}})
+        mistakes.push_back(
+            {mistake.words, [&points, &got, mistake] { return got == mistake.front(points); }});
     report.guess(mistakes);
 }
 
@@ -187,13 +196,17 @@ inline void failedRuns(Report& report) {
     requireFront(report, "a speed that is no number", {{noNumber, 0.01}, {1, 0.1}}, {false, true});
 }
 
-/// Points on a coarse lattice, so that many share a speed or an error; every seventh failed.
+/// Points on a coarse lattice, so that many share a speed or an error. Every seventh failed, soon:
+/// its error had no time to grow.
 inline Points randomPoints(std::size_t count, std::uint64_t seed) {
     Random random(seed);
     Points points;
-    for (std::size_t k = 0; k < count; ++k)
-        points.push_back({std::floor(random.uniform(1, 40)) / 4,
-                          std::floor(random.uniform(1, 60)) / 100, k % 7 == 3});
+    for (std::size_t k = 0; k < count; ++k) {
+        const double speed = std::floor(random.uniform(1, 40)) / 4,
+                     error = std::floor(random.uniform(1, 60)) / 100;
+        const bool failed = k % 7 == 3;
+        points.push_back({speed, failed ? error / 8 : error, failed});
+    }
     return points;
 }
 
