@@ -54,7 +54,7 @@ double capVolume(double radius, double depth) {
 
 }  // namespace
 
-Overlap overlapOf(const Spheres& all, Bounds walls) {
+Overlap overlapOf(const Spheres& all, Bounds walls, bool periodic) {
     Spheres spheres;
     for (std::size_t k = 0; k < all.count(); ++k)
         if (finite(all, k)) spheres.add(all.positions[k], {}, all.radii[k], 1, 0);
@@ -64,15 +64,15 @@ Overlap overlapOf(const Spheres& all, Bounds walls) {
         squares += depth * depth;
         deepest = std::max(deepest, depth);
     };
-    for (std::size_t k = 0; k < spheres.count(); ++k)
+    for (std::size_t k = 0; k < spheres.count() && !periodic; ++k)
         visitWalls(spheres, k, walls, [&](double depth) {
             ++overlap.wallContacts;
             add(depth);
         });
-    for (const auto [a, b] : findPairsOnHost(spheres)) {
+    const std::optional<Bounds> box = periodic ? std::optional(walls) : std::nullopt;
+    for (const Pair pair : findPairsOnHost(spheres, box)) {
         ++overlap.contacts;
-        const double reach = double(spheres.radii[a]) + spheres.radii[b];
-        add(std::max(0.0, reach - length(between(spheres.positions[a], spheres.positions[b]))));
+        add(penetrationOf(spheres, pair, box));
     }
     if (spheres.count() == 0) return overlap;
     overlap.rms = std::sqrt(squares / static_cast<double>(spheres.count())) / meanRadius(spheres);

@@ -18,7 +18,8 @@ struct Overlap {
     std::size_t wallContacts = 0;  ///< of a ball and a wall
 };
 /// SimBenchmark's sum of squares, divided by N. Bodies that are not finite are left out.
-Overlap overlapOf(const Spheres& spheres, Bounds walls);
+/// A world that is `periodic` has no walls.
+Overlap overlapOf(const Spheres& spheres, Bounds walls, bool periodic = false);
 
 /// How an energy (J) drifts from its reference: for a world with gravity the shadow energy
 /// (common/metrics.h), which a step in flight leaves exactly as it is.
