@@ -83,7 +83,7 @@ inline void requireSensibleBox(const SimulatorSettings& s) {
     if (wholeCells(shortest, s) < 3)
         throw InputError("a periodic box of " + std::to_string(shortest) +
                          " m is too small for cells of " + std::to_string(s.cellSize) +
-                         " m: it needs three of them along every edge");
+                         " m: it needs three of them and a hair along every edge");
 }
 
 /// InputError naming the first setting that makes no sense.
