@@ -30,8 +30,12 @@ double wallPenetration(Vec3d p, double radius, Bounds walls) {
                               upper.y - p.y, upper.z - p.z});
 }
 
-void addBody(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, Vec3d gravity,
-             double dt, bool walled) {
+bool isFiniteBody(const Spheres& spheres, std::size_t k) {
+    return isFinite(spheres.positions[k]) && isFinite(spheres.velocities[k]);
+}
+
+void addEnergies(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, Vec3d gravity,
+                 double dt) {
     const Vec3d position = widen(spheres.positions[k]), velocity = widen(spheres.velocities[k]);
     const double mass = spheres.masses[k];
     const double kinetic = 0.5 * mass * dot(velocity, velocity);
@@ -39,6 +43,13 @@ void addBody(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, V
     m.kineticEnergy += kinetic;
     m.potentialEnergy += potential;
     m.shadowEnergy += kinetic + potential + 0.5 * mass * dt * dot(gravity, velocity);
+}
+
+void addBody(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, Vec3d gravity,
+             double dt, bool walled) {
+    addEnergies(m, spheres, k, bounds, gravity, dt);
+    const Vec3d position = widen(spheres.positions[k]), velocity = widen(spheres.velocities[k]);
+    const double mass = spheres.masses[k];
     addScaled(m.momentum, mass, velocity);
     addScaled(m.angularMomentum, mass, cross(position, velocity));
     if (!contains(bounds, spheres.positions[k])) ++m.lost;
@@ -67,7 +78,7 @@ Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt, b
     const std::optional<Bounds> box = periodic ? std::optional(bounds) : std::nullopt;
     Metrics m;
     for (std::size_t k = 0; k < spheres.count(); ++k) {
-        if (isFinite(spheres.positions[k]) && isFinite(spheres.velocities[k]))
+        if (isFiniteBody(spheres, k))
             addBody(m, spheres, k, bounds, widen(gravity), dt, !periodic);
         else
             ++m.notFinite;
@@ -82,6 +93,13 @@ Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt, b
     m.contacts = pairs.size();
     m.meanPenetration = pairs.empty() ? 0.0 : sum / static_cast<double>(pairs.size());
     return m;
+}
+
+double shadowEnergyOf(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt) {
+    Metrics m;
+    for (std::size_t k = 0; k < spheres.count(); ++k)
+        if (isFiniteBody(spheres, k)) addEnergies(m, spheres, k, bounds, widen(gravity), dt);
+    return m.shadowEnergy;
 }
 
 namespace {

@@ -42,6 +42,9 @@ Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt,
 /// images of them.
 double penetrationOf(const Spheres& spheres, Pair pair, const std::optional<Bounds>& periodic);
 
+/// J: the shadow energy alone, without the search for contacts.
+double shadowEnergyOf(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt);
+
 /// 64 bits over the positions and velocities in body order: equal states, and hardly any others,
 /// have equal hashes.
 std::uint64_t stateHash(const Spheres& spheres);

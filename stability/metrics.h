@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "12_speed_and_accuracy/errors.h"
 #include "common/metrics.h"
 
 namespace ballpit::stability {
@@ -20,21 +21,6 @@ struct Overlap {
 /// SimBenchmark's sum of squares, divided by N. Bodies that are not finite are left out.
 /// A world that is `periodic` has no walls.
 Overlap overlapOf(const Spheres& spheres, Bounds walls, bool periodic = false);
-
-/// How an energy (J) drifts from its reference: for a world with gravity the shadow energy
-/// (common/metrics.h), which a step in flight leaves exactly as it is.
-class EnergyDrift {
-public:
-    explicit EnergyDrift(double reference) : reference_(reference) {}
-    void add(double energy);
-    double last() const { return last_; }        ///< (E - E0) / |E0|
-    double mean() const;                         ///< signed: of all that was added
-    double largest() const { return largest_; }  ///< of |E - E0| / |E0|
-
-private:
-    double reference_, sum_ = 0, last_ = 0, largest_ = 0;
-    std::size_t count_ = 0;
-};
 
 /// |p - p0| / sqrt(2 E0 M), with p the momentum, E0 the kinetic energy at the start, M the mass of
 /// all: 1 is as much momentum as the balls have if they all fly the same way.
@@ -71,6 +57,9 @@ double maxwellDistance(const Spheres& spheres);
 double haffRatio(double temperature, double startTemperature, double time, double haffTime);
 
 // Heaps.
+
+/// Does a ball of a column lie lower than the one below it was? Bodies are numbered from the floor.
+bool hasFallenThrough(const Spheres& spheres);
 
 /// The share of the slab between the heights `low` and `high`, wall to wall, that is ball.
 double packingFraction(const Spheres& spheres, Bounds walls, double low, double high);

@@ -23,6 +23,10 @@ struct TwoBodies {
 };
 Scene makeTwoBodies(const TwoBodies& knobs);
 
+/// `pairs` such meetings (equal masses, elastic, 0.1 radii a step) in lanes of their own: offsets
+/// as often as a random aim has them, phases at random. Bodies 2k and 2k + 1 meet.
+Scene makeMeetings(int pairs, std::uint64_t seed);
+
 /// SimBenchmark's bouncing balls: 7 x 7 balls of 0.1 m and 10 kg fall 5 m, none above another.
 Scene makeBounce(float restitution);
 
