@@ -19,7 +19,8 @@ struct Overlap {
     std::size_t wallContacts = 0;  ///< of a ball and a wall
 };
 /// SimBenchmark's sum of squares, divided by N. Bodies that are not finite are left out.
-Overlap overlapOf(const Spheres& spheres, Bounds walls);
+/// A world that is `periodic` has no walls.
+Overlap overlapOf(const Spheres& spheres, Bounds walls, bool periodic = false);
 
 /// |p - p0| / sqrt(2 E0 M), with p the momentum, E0 the kinetic energy at the start, M the mass of
 /// all: 1 is as much momentum as the balls have if they all fly the same way.

@@ -2,14 +2,15 @@
 #pragma once
 
 #include "10_full_system/one_step.cuh"
+#include "11_stability/periodic.cuh"
 #include "11_stability/reach.cuh"
 
 namespace ballpit {
 
-class SubstepStages : public EngineStages {
+class SubstepStages : public PeriodicStages {
 public:
     explicit SubstepStages(const SimulatorSettings& settings)
-        : EngineStages(settings),
+        : PeriodicStages(settings),
           grown_(settings.device, movesInSubsteps() ? static_cast<std::size_t>(count_) : 0,
                  "ballsWithReach") {}
 
