@@ -91,6 +91,12 @@ public:
     }
 
 protected:
+    void adopt(const SimulatorSettings& settings) {
+        EngineStages::adopt(settings);
+        if (movesInSubsteps() && grown_.count() == 0)
+            grown_.resize(static_cast<std::size_t>(count_));
+    }
+
     /// Makes the cells larger than the balls, so that these can reach beyond themselves. True if
     /// the grid is a new one.
     bool makeRoomToReach() {
