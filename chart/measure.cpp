@@ -18,6 +18,7 @@ constexpr double leastSample = 20, leastQuickSample = 5;
 /// s: a point that takes longer gets fewer timed runs, but never fewer than three.
 constexpr double enoughTime = 10, enoughQuickTime = 1;
 constexpr int fewestRuns = 3;
+constexpr double longEnoughToWarm = 500;  ///< ms
 
 std::string shortNumber(double value) {
     char text[32];
@@ -60,18 +61,22 @@ RunResult sample(const Question& question, Runner& runner, const Knobs& knobs, c
 void timeRow(Row& row, const Question& question, Runner& runner, const Scene& scene,
              const Plan& plan) {
     std::vector<double> times;
-    const double begin = milliseconds();
-    for (int k = -1; k < plan.runs; ++k) {  // the first is a warm-up
-        const double spent = 1e-3 * (milliseconds() - begin);
-        const bool isLong = spent > (plan.quick ? enoughQuickTime : enoughTime);
-        if (isLong && k >= fewestRuns) break;
+    double spent = 0;
+    bool isWarm = false;
+    while (static_cast<int>(times.size()) < plan.runs) {
+        const bool isLong = spent > 1e3 * (plan.quick ? enoughQuickTime : enoughTime);
+        if (isLong && static_cast<int>(times.size()) >= fewestRuns) break;
         if (StopRequest::received()) return;
         const RunResult run = sample(question, runner, row.knobs, scene, plan.quick);
         if (run.verdict != Verdict::ok) {  // right the first time and wrong the second: a race
             row.verdict = name(run.verdict);
             return;
         }
-        if (k >= 0) times.push_back(run.cost.millisecondsASecond());
+        spent += run.cost.milliseconds;
+        // The first short one is a warm-up; a long one has been warm for most of its time.
+        if (isWarm || run.cost.milliseconds > longEnoughToWarm)
+            times.push_back(run.cost.millisecondsASecond());
+        isWarm = true;
     }
     std::sort(times.begin(), times.end());
     row.milliseconds = {median(times), times.front(), times.back()};
@@ -81,7 +86,7 @@ void timeRow(Row& row, const Question& question, Runner& runner, const Scene& sc
 }  // namespace
 
 std::vector<Setting> settingsToTry(const Runner& runner, bool quick) {
-    constexpr double mostQuickSteps = 8;
+    constexpr double mostQuickSteps = 4;
     const Knobs usual = runner.usual();
     std::vector<Setting> settings{{usual, "both"}};
     for (const double steps : runner.stepsToTry())
@@ -125,9 +130,13 @@ std::optional<Row> measuredRow(const Question& question, Runner& runner, const S
 
 double probe(const Question& question, Runner& runner, const Plan& plan) {
     constexpr double probeFrames = 8;
+    constexpr int tries = 3;
     const Scene scene = question.make(plan.seed);
-    return runner.run(scene, runner.usual(), probeFrames * scene.dt, nullptr)
-        .cost.millisecondsASecond();
+    double least = std::numeric_limits<double>::max();
+    for (int k = 0; k < tries; ++k)
+        least = std::min(least, runner.run(scene, runner.usual(), probeFrames * scene.dt, nullptr)
+                                    .cost.millisecondsASecond());
+    return least;
 }
 
 double expectedSeconds(const Question& question, const Runner& runner, const Setting& setting,

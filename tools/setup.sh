@@ -7,6 +7,9 @@ libgl-dev libegl-dev libx11-dev libglu1-mesa-dev libglew-dev libgl1-mesa-dri
 freeglut3-dev libfreetype-dev fonts-dejavu-core
 libavcodec-dev libavformat-dev libswscale-dev"
 
+# Installed by `./ballpit chart` alone.
+chart_packages="python3-matplotlib"
+
 # The packages of the list "$1" that are not installed.
 missing_packages() {
     for package in $1; do
