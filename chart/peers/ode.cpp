@@ -2,6 +2,7 @@
 #include "chart/peers/ode.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -26,7 +27,7 @@ void noteMessage(int, const char* format, va_list values) {
     messageOfStep = textOf(format, values);
 }
 
-/// By itself ODE ends the program here. It comes here if a position is too large or no number.
+/// By itself ODE ends the program here, as it does when it meets a number that is none.
 void refuseState(int, const char* format, va_list values) {
     throw NotFiniteError("ODE: " + textOf(format, values));
 }
@@ -80,6 +81,7 @@ public:
             dWorldStep(world_, dt_);
         dJointGroupEmpty(joints_);
         if (!messageOfStep.empty()) throw SolverGaveUp("ODE: " + messageOfStep);
+        refuseFarBodies();
     }
 
     Spheres spheres() const override {
@@ -92,6 +94,18 @@ public:
     std::size_t contacts() const override { return contacts_; }
 
 private:
+    /// The next search for pairs would end the program: it numbers cells by integers.
+    void refuseFarBodies() const {
+        constexpr dReal farthest = 1e6;  // m
+        for (const dBodyID body : bodies_) {
+            const dReal* place = dBodyGetPosition(body);
+            for (int axis = 0; axis < 3; ++axis)
+                if (!(std::abs(place[axis]) < farthest))
+                    throw NotFiniteError("ODE: a ball is " + std::to_string(place[axis]) +
+                                         " m from the origin");
+        }
+    }
+
     void addBall(std::size_t k) {
         const Vec3 position = start_.positions[k], velocity = start_.velocities[k];
         dMass mass;
