@@ -40,10 +40,11 @@ inline Spheres after(const Named& peer, const Scene& scene, double seconds, floa
 
 constexpr Bounds room{{-5, -5, -5}, {5, 5, 5}};
 
-/// Along x, 1 m apart; the first flies at the second with 3 m/s.
-inline Scene headOnScene(float firstMass, float secondMass, float firstE, float secondE) {
+/// Along x, 1 m apart; the first flies at the second.
+inline Scene headOnScene(float firstMass, float secondMass, float firstE, float secondE,
+                         float speed = 3) {
     Scene scene = emptyWorld("head-on", room);
-    addBall(scene, {-2, 0, 0}, {3, 0, 0}, firstE, ballRadius, firstMass);
+    addBall(scene, {-2, 0, 0}, {speed, 0, 0}, firstE, ballRadius, firstMass);
     addBall(scene, {0, 0, 0}, {}, secondE, ballRadius, secondMass);
     return scene;
 }

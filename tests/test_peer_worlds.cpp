@@ -47,6 +47,8 @@ TEST_CASE("a peer changes positions and velocities alone, and counts what touche
     CHECK(end.masses == scene.spheres.masses);
     CHECK(end.restitutions == scene.spheres.restitutions);
     CHECK(end.positions[1].x == Approx(2));
+    CHECK(end.positions[1].y - room.lower.y == Approx(0.25).margin(0.01));
+    CHECK(end.positions[2].y - room.lower.y == Approx(1.75).margin(0.01));
 }
 
 TEST_CASE("a peer refuses damping, a dt of 0 and 0 iterations") {
