@@ -30,6 +30,8 @@ TEST_CASE("the peers' curves have names of their own, say engine and precision, 
         CHECK(test::contains(runner->engine(), runner->method().substr(0, 3)));
         CHECK((test::contains(runner->engine(), ", float") ||
                test::contains(runner->engine(), ", double")));
+        CHECK(test::contains(runner->pointName(runner->usual()), "default"));
+        CHECK(runner->pointName({2, runner->usual().passes}).empty());
         CHECK(runner->canRun(question("bounce")));
         CHECK_FALSE(runner->canRun(question("two_bodies")));
         CHECK(runner->canRun(question("666")) == (runner->method() != "ode-dantzig"));

@@ -77,6 +77,24 @@ TEST_CASE("elastic bounces keep their energy in ODE, and in Bullet as its author
     CHECK(energyRatio(peer, makeBounce(1), 10, 1 / 240.0f) == Approx(1).margin(0.01));
 }
 
+TEST_CASE("ODE's bounces have the energy error that SimBenchmark has published") {
+    const auto [dt, published] = GENERATE(table<float, double>({{1e-3f, 5.7e-4}, {1e-2f, 5.7e-3}}));
+    const Scene scene = makeBounce(1);
+    const auto world = makeOde(scene, {dt, odeIterations});
+    const auto energy = [&] {
+        const Metrics now = measure(world->spheres(), scene.bounds, scene.gravity, dt);
+        return now.kineticEnergy + now.potentialEnergy;
+    };
+    const double start = energy();
+    const int steps = int(std::lround(20 / dt));
+    double sumOfSquares = 0;
+    for (int k = 0; k < steps; ++k) {
+        world->step();
+        sumOfSquares += std::pow(energy() / start - 1, 2);
+    }
+    CHECK(std::sqrt(sumOfSquares / steps) == Approx(published).epsilon(0.02));
+}
+
 TEST_CASE("as packaged, Bullet gains energy at floors and sticks to walls: why we set it up") {
     CHECK(energyRatio(bulletAsPackaged, makeBounce(1), 10, 1 / 240.0f) > 1.2);
     CHECK(length(after(bulletAsPackaged, ballAtWall({4, 0, 0}), 2, 1 / 240.0f).velocities[0]) < 1);

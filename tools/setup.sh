@@ -7,6 +7,9 @@ libgl-dev libegl-dev libx11-dev libglu1-mesa-dev libglew-dev libgl1-mesa-dri
 freeglut3-dev libfreetype-dev fonts-dejavu-core
 libavcodec-dev libavformat-dev libswscale-dev"
 
+# Installed by `./ballpit chart` alone.
+chart_packages="python3-matplotlib"
+
 # Not needed and not installed: other engines, for `./ballpit chart --peers` (docs/peers.md).
 # shellcheck disable=SC2034  # read by .ci/run
 peer_packages="libbullet-dev libode-dev"

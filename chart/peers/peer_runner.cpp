@@ -19,6 +19,9 @@ public:
     std::string method() const override { return method_.method; }
     std::string passesName() const override { return hasIterations() ? "iterations" : ""; }
     Knobs usual() const override { return {1, method_.usualIterations}; }
+    std::string pointName(const Knobs& knobs) const override {
+        return knobs == usual() ? method_.method + ", default" : "";
+    }
     std::vector<int> passesToTry() const override { return method_.iterations; }
     bool canRun(const stability::Question& question) const override {
         return std::ranges::find(method_.scenes, question.scene) != method_.scenes.end();

@@ -30,12 +30,15 @@ def register(commands):
     maps.set_defaults(run=maps_command)
 
 
-def stamp(args):
+def measured_with(device, words):
     """The lines at the head of a CSV: machine, commit, command."""
-    command = ["./ballpit", "maps", *args.names, *(["--coarse"] if args.coarse else []),
-               "--device", args.device]
-    return (f"{', '.join(measure_chapters.machine(args.device))}, "
-            f"commit {measure_chapters.commit()}\n{shlex.join(command)}")
+    return (f"{', '.join(measure_chapters.machine(device))}, "
+            f"commit {measure_chapters.commit()}\n{shlex.join(['./ballpit', *words])}")
+
+
+def stamp(args):
+    return measured_with(args.device, ["maps", *args.names, *(["--coarse"] if args.coarse else []),
+                                       "--device", args.device])
 
 
 def out_folder(path):
