@@ -148,6 +148,16 @@ double velocityNoise(const Spheres& spheres, double g, double dt) {
     return std::sqrt(sum / static_cast<double>(spheres.count())) / (g * dt);
 }
 
+double floorLoad(const Spheres& before, const Spheres& after, double g, double time) {
+    double mass = 0, gained = 0;
+    for (std::size_t k = 0; k < after.count(); ++k) {
+        const double m = after.masses[k];
+        mass += m;
+        gained += m * (double(after.velocities[k].y) - before.velocities[k].y);
+    }
+    return 1 + gained / (mass * g * time);
+}
+
 double largestDistance(const Spheres& a, const Spheres& b) {
     double largest = 0;
     for (std::size_t k = 0; k < a.count(); ++k)

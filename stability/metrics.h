@@ -71,6 +71,10 @@ double coordination(const Spheres& spheres, double slack);
 /// the least that a scheme has to deal with.
 double velocityNoise(const Spheres& spheres, double g, double dt);
 
+/// What the floor (and the ceiling) gave in `time` s, over the weight of all: by the momentum that
+/// gravity would have given and did not. 1 for all that stands; it says nothing about how.
+double floorLoad(const Spheres& before, const Spheres& after, double g, double time);
+
 // Runs.
 
 /// m: the largest distance of one body in two runs. 0 does not say that the bits are equal.
