@@ -38,8 +38,7 @@ def register(commands):
 def measured_with(device, words):
     """The lines at the head of a CSV: machine, commit, command."""
     return (f"{', '.join(measure_chapters.machine(device))}, "
-            f"commit {measure_chapters.commit()}
-{shlex.join(['./ballpit', *words])}")
+            f"commit {measure_chapters.commit()}\n{shlex.join(['./ballpit', *words])}")
 
 
 def stamp(args):
