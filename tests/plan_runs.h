@@ -21,7 +21,7 @@ struct Start {
 
 /// What is met by luck is no proof, so a question has several starts: other seeds; other speeds of
 /// the bullet, which has no seed. A gas of 343 balls that cools scatters by 4 % about its mean:
-/// there are 8 starts, and two may miss.
+/// there are 8 starts, four of them with steps twice as long, and two may miss.
 struct Starts {
     std::vector<Start> all;
     std::size_t mayMiss = 0;
@@ -41,12 +41,18 @@ inline Starts startsOf(const stability::Question& question) {
                                   question.seconds * 3.0 / static_cast<double>(travel)});
         return starts;
     }
-    const bool cools = question.scene == std::string("cooling_gas");
-    const int seeds = cools ? 8 : hasSeeds(question) ? 2 : 1;
-    for (int seed = 1; seed <= seeds; ++seed)
-        starts.all.push_back(
-            {&question, question.make(static_cast<std::uint64_t>(seed)), question.seconds});
-    starts.mayMiss = cools ? 2 : 0;
+    if (question.scene == std::string("cooling_gas")) {
+        starts.mayMiss = 2;
+        for (const float travel : {0.1f, 0.2f})
+            for (const std::uint64_t seed : {1, 2, 3, 4})
+                starts.all.push_back(
+                    {&question,
+                     stability::makeGasOf({.travel = travel, .restitution = 0.9f, .seed = seed}),
+                     question.seconds});
+        return starts;
+    }
+    starts.all.push_back({&question, question.make(1), question.seconds});
+    if (hasSeeds(question)) starts.all.push_back({&question, question.make(2), question.seconds});
     return starts;
 }
 
