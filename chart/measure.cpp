@@ -134,9 +134,8 @@ double probe(const Question& question, Runner& runner, const Plan& plan) {
     const Scene scene = question.make(plan.seed);
     double least = std::numeric_limits<double>::max();
     for (int k = 0; k < tries; ++k)
-        least = std::min(least,
-                         runner.run(scene, runner.usual(), probeFrames * scene.dt, nullptr)
-                             .cost.millisecondsASecond());
+        least = std::min(least, runner.run(scene, runner.usual(), probeFrames * scene.dt, nullptr)
+                                    .cost.millisecondsASecond());
     return least;
 }
 

@@ -62,7 +62,7 @@ void CoolingMeter::observe(const Spheres& now, double time) {
 double CoolingMeter::error() const { return std::abs(energy_ / trueEnergy(scene(), time_) - 1); }
 
 void OverlapMeter::observe(const Spheres& now, double) {
-    const double rms = overlapOf(now, scene().bounds).rms;
+    const double rms = overlapOf(now, scene().bounds, scene().periodic).rms;
     squares_ += rms * rms;
     ++frames_;
 }
@@ -71,7 +71,7 @@ double OverlapMeter::error() const { return std::sqrt(squares_ / std::max(1.0, f
 
 void RestingMeter::observe(const Spheres& now, double time) {
     if (time >= from_ || hasFailed())
-        deepest_ = std::max(deepest_, overlapOf(now, scene().bounds).max);
+        deepest_ = std::max(deepest_, overlapOf(now, scene().bounds, scene().periodic).max);
 }
 
 bool RestingMeter::hasLostOne(const Spheres& now) const { return hasFallenThrough(now); }

@@ -48,14 +48,15 @@ struct Hub {
 };
 Scene makeHub(const Hub& knobs);
 
-/// A gas between walls, on a lattice at first: random velocities with no sum and with the root mean
-/// square `speed`.
+/// A gas between walls, or in a periodic box; on a lattice at first. Random velocities with no sum
+/// and with the root mean square `speed`.
 struct Gas {
     int count = 343;
     float volumeShare = 0.3f;  ///< of the box that is ball, below 0.5
     float travel = 0.1f;       ///< rms speed times dt / r
     float restitution = 1.0f;
     std::uint64_t seed = 1;
+    bool periodic = false;
 };
 constexpr float gasSpeed = 1.7320508f;  ///< m/s, rms: a temperature of 1 J
 Scene makeGasOf(const Gas& knobs);

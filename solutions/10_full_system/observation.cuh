@@ -58,7 +58,8 @@ public:
     /// Energy, momentum, penetrations, hash: measured on the host.
     const MeasuredFigures& figures() {
         if (!figures_)
-            figures_ = {step_, measure(balls(), scene_.bounds, scene_.gravity, scene_.dt),
+            figures_ = {step_,
+                        measure(balls(), scene_.bounds, scene_.gravity, scene_.dt, scene_.periodic),
                         stateHash(balls())};
         return *figures_;
     }
