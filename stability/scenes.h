@@ -82,6 +82,10 @@ Scene makeMixedRadii(int count, float ratio, std::uint64_t seed);
 /// each edge.
 Scene makeBullet(int side, float travel);
 
+/// `bullets` such shots at lattices of 3 x 3 x 3 balls, in lanes of their own, at random phases of
+/// the step and up to 0.3 radii off their line. A bullet comes before its lattice in the order.
+Scene makeVolley(int bullets, float travel, std::uint64_t seed);
+
 // Pathologies: what no scene should ask for, and every engine is asked for some day.
 
 /// Balls at random places within one cell of the grid.

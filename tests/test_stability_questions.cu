@@ -8,6 +8,7 @@
 #include "stability/metrics.h"
 #include "stability/scenes.h"
 #include "tests/support.h"
+#include "truth/balls.h"
 
 using namespace ballpit;
 using namespace ballpit::stability;
@@ -190,11 +191,32 @@ TEST_CASE("meetings start apart, each in a lane of its own") {
         CHECK(std::abs(scene.spheres.positions[k].y - scene.spheres.positions[k + 1].y) < 1);
 }
 
-TEST_CASE("a bullet that hands nothing on has the error 1") {
-    const Scene scene = question("bullet").make(1);
+TEST_CASE("bullets that hand nothing on err by what they should have") {
+    // Two lanes: 2 kg m/s are handed on in the first, 4 in the second.
+    Scene scene = twoBalls({2, 0, 0});
+    scene.spheres.add({-1, 4, 0}, {4, 0, 0}, 0.5f, 1, 1);
+    scene.spheres.add({1, 4, 0}, {}, 0.5f, 1, 1);
     HandedOnMeter meter(scene, scene.dt);
-    meter.add(scene.spheres, 0.1);
-    CHECK(meter.error() == Approx(1));
+    meter.add(scene.spheres, 1);
+    CHECK(meter.error() == Approx(std::sqrt((4 + 16) / 2.0) / 3));
+    Spheres now = scene.spheres;
+    now.velocities = {{}, {2, 0, 0}, {}, {4, 0, 0}};
+    meter.add(now, 1);
+    CHECK(meter.error() == Approx(0).margin(1e-6));
+}
+
+TEST_CASE("a volley keeps its lanes apart as long as its question takes") {
+    const Question& q = question("bullet");
+    const Scene scene = q.make(1);
+    CHECK(overlapOf(scene.spheres, scene.bounds).contacts == 0);
+    const truth::Balls end = trueEnd(scene, q.seconds);
+    const std::size_t inLane = scene.spheres.count() / 16;
+    for (std::size_t k = 0; k < end.size(); ++k) {
+        const Vec3 start = scene.spheres.positions[k / inLane * inLane];
+        CHECK(std::abs(end[k].position.y - start.y) < 7);
+        CHECK(std::abs(end[k].position.z - start.z) < 7);
+        CHECK(end[k].position.x < scene.bounds.upper.x - 1);
+    }
 }
 
 TEST_CASE("a meter says how a run has failed, once and for all") {

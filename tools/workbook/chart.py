@@ -108,15 +108,17 @@ def chart_command(args):
     child = processes.start([str(build.executable("ballpit_chart")), *asked, "--out", str(folder),
                              "--stamp", stamp], stdout=processes.subprocess.PIPE, text=True)
     one_point = args.steps is not None or args.passes is not None
+    drawn = False
     # Each chart is drawn as soon as it is there: whoever stops half-way has the others.
     for line in child.stdout:
         if one_point:
             print(line, end="")
         else:
             draw(Path(line.strip()))
+            drawn = True
     code = processes.finish(child)
     if code < 0:
         raise ToolError(f"ballpit_chart was ended by signal {-code}; the same command goes on")
-    if code == 0 and not one_point:
+    if drawn:
         write_page(folder)
     return code
