@@ -22,7 +22,12 @@ struct Options {
     std::uint64_t seed = 1;
     int frames = 600;
     std::string response = "mass-split";
-    ResponseKnobs knobs;  ///< of the response
+    ResponseKnobs knobs;              ///< of the response
+    bool allPairs = false;            ///< compare all balls with all, without a grid
+    std::string plan;                 ///< auto, original, or empty: settings were given
+    std::optional<double> tolerance;  ///< of the plan
+    /// The scene's facts choose the response and its settings.
+    bool planned() const { return plan == "auto"; }
     std::optional<float> dt, gravity, damping, restitution, cellSize;
     bool periodic = false;  ///< without walls
     std::string out;        ///< video to write; empty: none

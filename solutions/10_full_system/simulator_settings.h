@@ -13,6 +13,15 @@
 
 namespace ballpit {
 
+/// How touching pairs are found.
+enum class BroadPhaseMethod {
+    grid,  ///< bodies sorted into cells, 27 cells searched
+    naive  ///< every body against every other: one cell for all, so nothing is sorted or moved
+};
+
+/// Larger than any world: the edge of the one cell of BroadPhaseMethod::naive, m.
+constexpr float oneCellForAll = 1e9f;
+
 /// The response's knobs (iterations, ...) come from common/response_method.h.
 struct SimulatorSettings : ResponseKnobs {
     int objects = 500;
@@ -24,6 +33,7 @@ struct SimulatorSettings : ResponseKnobs {
     Vec3 gravity{0, -9.81f, 0};  ///< m/s^2
     float damping = 0.01f;       ///< 1/s
     ResponseMethod response = ResponseMethod::massSplit;
+    BroadPhaseMethod broadPhase = BroadPhaseMethod::grid;
     std::size_t pairCapacity = 0;  ///< pairs to make room for at first; 0: four a body
     bool growPairs = true;         ///< on overflow: grow and redo, or fail
     bool timeStages = false;       ///< fills StepStats::stages, at the price of the CUDA graph
@@ -73,6 +83,8 @@ inline Bounds gridBounds(const SimulatorSettings& s) {
 inline void requireSensibleBox(const SimulatorSettings& s) {
     if (!(s.gravity == Vec3{}))
         throw InputError("a periodic box has no floor to fall to: use gravity 0, or walls");
+    if (s.broadPhase == BroadPhaseMethod::naive)
+        throw InputError("a periodic box is searched by its grid: not by the naive broad phase");
     using enum ResponseMethod;
     if (s.response == warm || s.response == smallSteps || s.response == penalty)
         throw InputError("the response " + name(s.response) +

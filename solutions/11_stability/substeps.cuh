@@ -7,6 +7,37 @@
 
 namespace ballpit {
 
+/// How far balls may be pushed beyond their expected way, in radii. It doubles when a ball left its
+/// reach in a step, and halves again after a while without need: longer reaches list more pairs,
+/// but a list for each substep costs more.
+class ReachSlack {
+public:
+    float inRadii() const { return 0.05f * static_cast<float>(1 << doublings_); }
+    int doublings() const { return doublings_; }
+
+    /// For step `step` and some more. False if the slack is the largest already.
+    bool widen(long step) {
+        if (doublings_ == mostDoublings) return false;
+        ++doublings_;
+        keptUntil_ = step + stepsKept;
+        return true;
+    }
+
+    /// Before step `step`. Asked twice before the same step, it changes nothing the second time.
+    void narrow(long step) {
+        if (doublings_ == 0 || step < keptUntil_) return;
+        --doublings_;
+        keptUntil_ = step + stepsKept;
+    }
+
+private:
+    static constexpr int mostDoublings = 2;
+    static constexpr long stepsKept = 16;
+
+    int doublings_ = 0;
+    long keptUntil_ = 0;
+};
+
 class SubstepStages : public PeriodicStages {
 public:
     explicit SubstepStages(const SimulatorSettings& settings)
@@ -18,6 +49,8 @@ public:
     bool movesInSubsteps() const { return response_->stepKind() == StepKind::substeps; }
 
     std::size_t bytes() const { return EngineStages::bytes() + grown_.bytes(); }
+
+    const ReachSlack& slack() const { return slack_; }
 
     /// Moves the bodies freely for a substep, to others or where they are; walls are the
     /// response's. Hashes them as well, in case the grid is built next.
@@ -34,7 +67,7 @@ public:
         timer_.start("broad phase");
         const BodiesView bodies = bodies_.view(copies);
         const ReachSettings reach{static_cast<float>(moves) * substep(), length(settings_.gravity),
-                                  reachSlack, 0.5f * grid_.cellSize};
+                                  slack_.inRadii(), 0.5f * grid_.cellSize};
         launch<growByReach>(settings_.device, count_, bodies, reach, grown_.view());
         findPairsGrid(settings_.device, count_, grid_.view(), grid_.sortedHashes.view(),
                       grown_.view(), pairs_, status_.view(), scratch_);
@@ -58,6 +91,12 @@ public:
     }
 
 protected:
+    void adopt(const SimulatorSettings& settings) {
+        EngineStages::adopt(settings);
+        if (movesInSubsteps() && grown_.count() == 0)
+            grown_.resize(static_cast<std::size_t>(count_));
+    }
+
     /// Makes the cells larger than the balls, so that these can reach beyond themselves. True if
     /// the grid is a new one.
     bool makeRoomToReach() {
@@ -67,9 +106,9 @@ protected:
         return true;
     }
 
+    ReachSlack slack_;
+
 private:
-    /// How far a ball may be pushed beyond its expected way, in radii.
-    static constexpr float reachSlack = 0.05f;
     /// Cells, in diameters of the largest ball.
     static constexpr float roomToReach = 1.4f;
 

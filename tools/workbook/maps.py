@@ -35,12 +35,15 @@ def register(commands):
     maps.set_defaults(run=maps_command)
 
 
-def stamp(args):
+def measured_with(device, words):
     """The lines at the head of a CSV: machine, commit, command."""
+    return (f"{', '.join(measure_chapters.machine(device))}, "
+            f"commit {measure_chapters.commit()}\n{shlex.join(['./ballpit', *words])}")
+
+
+def stamp(args):
     flags = [f"--{flag}" for flag in ("table", "coarse") if getattr(args, flag)]
-    command = ["./ballpit", "maps", *args.names, *flags, "--device", args.device]
-    return (f"{', '.join(measure_chapters.machine(args.device))}, "
-            f"commit {measure_chapters.commit()}\n{shlex.join(command)}")
+    return measured_with(args.device, ["maps", *args.names, *flags, "--device", args.device])
 
 
 def out_folder(path):
