@@ -208,12 +208,12 @@ TEST_CASE("a full pair list and rehearsals change no bit of balls that leave the
     const Device device = GENERATE(from_range(test::devices()));
     const Scene scene = fall();
     SimulatorSettings settings = test::settingsFor(scene, device, ResponseMethod::smallSteps);
-    const std::uint64_t plain = stateHash(test::simulate(scene, settings, 60));
+    const std::uint64_t plain = stateHash(test::simulate(scene, settings, 120));
     settings.pairCapacity = 64;
-    CHECK(stateHash(test::simulate(scene, settings, 60)) == plain);
+    CHECK(stateHash(test::simulate(scene, settings, 120)) == plain);
     PhysicsSimulator simulator(test::settingsFor(scene, device, ResponseMethod::smallSteps));
     simulator.bodies().upload(scene.spheres);
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < 120; ++k) {
         simulator.rehearseStep();
         simulator.step();
     }
