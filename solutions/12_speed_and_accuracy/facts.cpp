@@ -63,24 +63,6 @@ double loadOnLightest(const SceneFacts& f, const World& w) {
     return (w.ballMass - f.smallestMass) * share / f.smallestMass;
 }
 
-namespace {
-
-/// J/kg: what gravity along one axis does on the longest way to a wall there is.
-double workAlong(double g, double lower, double upper, double wallBelow, double wallAbove) {
-    return g < 0 ? -g * std::max(0.0, upper - wallBelow) : g * std::max(0.0, wallAbove - lower);
-}
-
-}  // namespace
-
-double speedToCome(const SceneFacts& f, const World& w) {
-    const Vec3 low = f.span.lower, high = f.span.upper, below = w.walls.lower,
-               above = w.walls.upper;
-    const double work = workAlong(w.gravity.x, low.x, high.x, below.x, above.x) +
-                        workAlong(w.gravity.y, low.y, high.y, below.y, above.y) +
-                        workAlong(w.gravity.z, low.z, high.z, below.z, above.z);
-    return std::sqrt(double(f.largestSpeed) * f.largestSpeed + 2 * work);
-}
-
 double farthestCoordinate(const World& w) {
     double farthest = 0;
     for (const float c : {w.walls.lower.x, w.walls.lower.y, w.walls.lower.z, w.walls.upper.x,
