@@ -261,6 +261,7 @@ void chooseResponseAndSteps(Plan& plan, const Case& c) {
 }
 
 void chooseBroadPhase(Plan& plan, const Case& c) {
+    if (c.world.periodic) return choose(plan, "broad phase", "grid", "the box is periodic");
     const bool naive = c.facts.count <= c.t.naiveMost;
     plan.broadPhase = naive ? BroadPhaseMethod::naive : BroadPhaseMethod::grid;
     choose(plan, "broad phase", naive ? "naive" : "grid",
@@ -269,13 +270,21 @@ void chooseBroadPhase(Plan& plan, const Case& c) {
                  : "naive: time grows with the square of the balls");
 }
 
+/// m: a periodic box needs three cells and a hair along every edge.
+double largestCell(const World& world) {
+    const Vec3 size = extent(world.walls);
+    const float shortest = minimum(size.x, minimum(size.y, size.z));
+    return world.periodic ? shortest / 3.2 : shortest;
+}
+
 /// As small as the largest ball, unless there would be too many cells.
 void chooseCells(Plan& plan, const Case& c) {
     plan.cellSize = c.world.cellSize;
     if (plan.broadPhase == BroadPhaseMethod::naive) return;
     const Vec3 size = extent(c.world.walls);
-    const double fewest = std::cbrt(double(size.x) * size.y * size.z /
-                                    (c.t.cellsABall * static_cast<double>(c.facts.count)));
+    const double fewest = std::min(
+        largestCell(c.world), std::cbrt(double(size.x) * size.y * size.z /
+                                        (c.t.cellsABall * static_cast<double>(c.facts.count))));
     const float diameter = 2.0f * c.facts.largestRadius;
     const bool sparse = fewest > double(diameter);
     plan.cellSize = sparse ? static_cast<float>(fewest) : diameter;
