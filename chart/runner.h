@@ -47,6 +47,9 @@ public:
     virtual std::vector<int> passesToTry() const { return {}; }
     virtual std::vector<double> stepsToTry() const { return {0.5, 1, 2, 4, 8, 16, 32}; }
 
+    /// A name that a setting is known by, or "".
+    virtual std::string pointName(const Knobs&) const { return {}; }
+
     virtual bool canRun(const stability::Question&) const { return true; }
 
     /// s: with what step it moves the bodies (a substep, if it has them): for the meter.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/bodies.cuh"
 #include "common/host_pairs.h"
 
 namespace ballpit {
@@ -45,36 +46,47 @@ void addEnergies(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bound
 }
 
 void addBody(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, Vec3d gravity,
-             double dt) {
+             double dt, bool walled) {
     addEnergies(m, spheres, k, bounds, gravity, dt);
     const Vec3d position = widen(spheres.positions[k]), velocity = widen(spheres.velocities[k]);
     const double mass = spheres.masses[k];
     addScaled(m.momentum, mass, velocity);
     addScaled(m.angularMomentum, mass, cross(position, velocity));
     if (!contains(bounds, spheres.positions[k])) ++m.lost;
-    m.largestPenetration =
-        std::max(m.largestPenetration, wallPenetration(position, spheres.radii[k], bounds));
+    if (walled)
+        m.largestPenetration =
+            std::max(m.largestPenetration, wallPenetration(position, spheres.radii[k], bounds));
 }
 
 }  // namespace
 
 double length(Vec3d v) { return std::sqrt(dot(v, v)); }
 
-Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt) {
+double penetrationOf(const Spheres& spheres, Pair pair, const std::optional<Bounds>& periodic) {
+    Vec3d offset =
+        minus(widen(spheres.positions[pair.second]), widen(spheres.positions[pair.first]));
+    if (periodic) {
+        const Vec3d period = minus(widen(periodic->upper), widen(periodic->lower));
+        offset = {toNearestImage(offset.x, period.x), toNearestImage(offset.y, period.y),
+                  toNearestImage(offset.z, period.z)};
+    }
+    const double reach = double(spheres.radii[pair.first]) + spheres.radii[pair.second];
+    return std::max(0.0, reach - length(offset));
+}
+
+Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt, bool periodic) {
+    const std::optional<Bounds> box = periodic ? std::optional(bounds) : std::nullopt;
     Metrics m;
     for (std::size_t k = 0; k < spheres.count(); ++k) {
         if (isFiniteBody(spheres, k))
-            addBody(m, spheres, k, bounds, widen(gravity), dt);
+            addBody(m, spheres, k, bounds, widen(gravity), dt, !periodic);
         else
             ++m.notFinite;
     }
-    const std::vector<Pair> pairs = findPairsOnHost(spheres);
+    const std::vector<Pair> pairs = findPairsOnHost(spheres, box);
     double sum = 0.0;
     for (const Pair pair : pairs) {
-        const Vec3d offset =
-            minus(widen(spheres.positions[pair.second]), widen(spheres.positions[pair.first]));
-        const double reach = double(spheres.radii[pair.first]) + spheres.radii[pair.second];
-        const double penetration = std::max(0.0, reach - length(offset));
+        const double penetration = penetrationOf(spheres, pair, box);
         sum += penetration;
         m.largestPenetration = std::max(m.largestPenetration, penetration);
     }

@@ -96,6 +96,9 @@ void addSimulationOptions(CLI::App& app, Options& o) {
     app.add_option("--damping", o.damping, "share of its velocity a ball loses a second");
     app.add_option("--restitution", o.restitution, "for all balls: 0 dead stop, 1 elastic");
     app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
+    app.add_flag("--periodic", o.periodic,
+                 "no walls: what leaves on one side comes in on the other (without gravity; with "
+                 "mass-split, racy, atomic, jacobi, coloured)");
     app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
     app.add_option("--color", o.color,
                    "what colours tell: body, speed, contacts, cell or memory (their order there)")
@@ -241,6 +244,7 @@ Scene sceneFor(const Options& o) {
     if (o.gravity) scene.gravity = {0, *o.gravity, 0};
     if (o.damping) scene.damping = *o.damping;
     if (o.cellSize) scene.cellSize = *o.cellSize;
+    scene.periodic |= o.periodic;
     if (o.restitution)
         std::fill(scene.spheres.restitutions.begin(), scene.spheres.restitutions.end(),
                   *o.restitution);

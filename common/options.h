@@ -29,11 +29,12 @@ struct Options {
     /// The scene's facts choose the response and its settings.
     bool planned() const { return plan == "auto"; }
     std::optional<float> dt, gravity, damping, restitution, cellSize;
-    std::string out;       ///< video to write; empty: none
-    std::string png;       ///< picture of the last frame; empty: none
-    std::string stills;    ///< folder for the first and the last frame; empty: none
-    int compression = 20;  ///< of the video, 0 exact to 51 coarse
-    Shot shot;             ///< where the camera stands, how it moves
+    bool periodic = false;  ///< without walls
+    std::string out;        ///< video to write; empty: none
+    std::string png;        ///< picture of the last frame; empty: none
+    std::string stills;     ///< folder for the first and the last frame; empty: none
+    int compression = 20;   ///< of the video, 0 exact to 51 coarse
+    Shot shot;              ///< where the camera stands, how it moves
     /// Frames in motion are wanted, more than one picture.
     bool isFilmed() const { return !out.empty() || !stills.empty(); }
     std::string color = "body";       ///< what a ball's colour tells (simulations)

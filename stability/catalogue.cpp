@@ -82,7 +82,7 @@ const Entry entries[] = {
      "truth/columns.h: mostPairsOfAnyBalls", 0.1, "rms {} of the mean radius",
      "count, largest over smallest radius, seed"},
     {"bullet", 126, 2, million, bullet, "Is a fast ball stopped by what it hits?",
-     "truth/collisions.h: impulseAppliedShare", 0.1, "{} of the momentum that it should hand on",
+     "truth/collisions.h: impulseAppliedShare", 0.1, "{} of the momentum to be handed on, rms",
      "side, travel"},
     {"one_cell", 500, 2, 20000, makeOneCell, "What if all balls lie in one cell?",
      "no ball lost, no pair dropped", 0, "exact", "count, seed"},

@@ -26,8 +26,9 @@ truth::Balls trueEnd(const Scene& scene, double seconds) {
     for (std::size_t k = 0; k < s.count(); ++k)
         balls.push_back({widened(s.positions[k]), widened(s.velocities[k]), s.radii[k], s.masses[k],
                          s.restitutions[k]});
-    truth::EventDriven simulator(
-        balls, {.box = {widened(scene.bounds.lower), widened(scene.bounds.upper)}});
+    truth::EventDriven simulator(balls,
+                                 {.box = {widened(scene.bounds.lower), widened(scene.bounds.upper)},
+                                  .periodic = scene.periodic});
     simulator.runUntil(seconds);
     return simulator.balls();
 }

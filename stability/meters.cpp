@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "common/metrics.h"
@@ -24,6 +25,18 @@ Vec3d difference(Vec3 a, Vec3 b) {
 double angleBetween(Vec3d a, Vec3d b) {
     const double cosine = (a.x * b.x + a.y * b.y + a.z * b.z) / (length(a) * length(b));
     return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+/// For each ball that moves at the start: the sum of value(k) over those at rest behind it.
+template <class Value>
+std::vector<double> sumsByBullet(const Spheres& start, Value value) {
+    std::vector<double> sums;
+    for (std::size_t k = 0; k < start.count(); ++k)
+        if (length(start.velocities[k]) > 0)
+            sums.push_back(0);
+        else
+            sums.back() += value(k);
+    return sums;
 }
 
 }  // namespace
@@ -62,7 +75,7 @@ void CoolingMeter::observe(const Spheres& now, double time) {
 double CoolingMeter::error() const { return std::abs(energy_ / trueEnergy(scene(), time_) - 1); }
 
 void OverlapMeter::observe(const Spheres& now, double) {
-    const double rms = overlapOf(now, scene().bounds).rms;
+    const double rms = overlapOf(now, scene().bounds, scene().periodic).rms;
     squares_ += rms * rms;
     ++frames_;
 }
@@ -71,7 +84,7 @@ double OverlapMeter::error() const { return std::sqrt(squares_ / std::max(1.0, f
 
 void RestingMeter::observe(const Spheres& now, double time) {
     if (time >= from_ || hasFailed())
-        deepest_ = std::max(deepest_, overlapOf(now, scene().bounds).max);
+        deepest_ = std::max(deepest_, overlapOf(now, scene().bounds, scene().periodic).max);
 }
 
 bool RestingMeter::hasLostOne(const Spheres& now) const { return hasFallenThrough(now); }
@@ -100,17 +113,24 @@ void AngleMeter::observe(const Spheres& now, double) {
 }
 
 void HandedOnMeter::observe(const Spheres& now, double time) {
-    momentum_ = 0;
-    for (std::size_t k = 1; k < now.count(); ++k)
-        momentum_ += double(now.masses[k]) * now.velocities[k].x;
+    momenta_ = sumsByBullet(scene().spheres, [&](std::size_t k) {
+        return double(now.masses[k]) * now.velocities[k].x;
+    });
     time_ = time;
 }
 
 double HandedOnMeter::error() const {
+    if (momenta_.empty()) return std::numeric_limits<double>::quiet_NaN();
     const truth::Balls balls = trueEnd(scene(), time_);
-    double expected = 0;
-    for (std::size_t k = 1; k < balls.size(); ++k) expected += balls[k].mass * balls[k].velocity.x;
-    return std::abs(missedShare(momentum_, expected));
+    const std::vector<double> expected = sumsByBullet(
+        scene().spheres, [&](std::size_t k) { return balls[k].mass * balls[k].velocity.x; });
+    double squares = 0, sum = 0;
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        squares += (momenta_[k] - expected[k]) * (momenta_[k] - expected[k]);
+        sum += expected[k];
+    }
+    const auto count = static_cast<double>(expected.size());
+    return std::sqrt(squares / count) / (sum / count);
 }
 
 }  // namespace ballpit::stability

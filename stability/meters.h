@@ -102,7 +102,9 @@ private:
     double error_ = 0;
 };
 
-/// |1 - p / p_true|, p: the momentum along x that all balls but the first have, at the end.
+/// sqrt of the mean over all bullets of (p - p_true)^2, over the mean of p_true; p: the momentum
+/// along x of what a bullet has hit, at the end. In body order, a ball that moves at the start is a
+/// bullet, and those at rest behind it are what is in its way.
 class HandedOnMeter : public Meter {
 public:
     using Meter::Meter;
@@ -112,7 +114,8 @@ protected:
     void observe(const Spheres& now, double time) override;
 
 private:
-    double momentum_ = 0, time_ = 0;
+    std::vector<double> momenta_;
+    double time_ = 0;
 };
 
 }  // namespace ballpit::stability

@@ -54,22 +54,21 @@ double capVolume(double radius, double depth) {
 
 }  // namespace
 
-Overlap overlapOf(const Spheres& all, Bounds walls) {
+Overlap overlapOf(const Spheres& all, Bounds walls, bool periodic) {
     Spheres spheres;
     for (std::size_t k = 0; k < all.count(); ++k)
         if (finite(all, k)) spheres.add(all.positions[k], {}, all.radii[k], 1, 0);
     Overlap overlap;
     std::vector<double> depths;
-    for (std::size_t k = 0; k < spheres.count(); ++k)
+    for (std::size_t k = 0; k < spheres.count() && !periodic; ++k)
         visitWalls(spheres, k, walls, [&](double depth) {
             ++overlap.wallContacts;
             depths.push_back(depth);
         });
-    for (const auto [a, b] : findPairsOnHost(spheres)) {
+    const std::optional<Bounds> box = periodic ? std::optional(walls) : std::nullopt;
+    for (const Pair pair : findPairsOnHost(spheres, box)) {
         ++overlap.contacts;
-        const double reach = double(spheres.radii[a]) + spheres.radii[b];
-        const double distance = length(between(spheres.positions[a], spheres.positions[b]));
-        depths.push_back(std::max(0.0, reach - distance));
+        depths.push_back(penetrationOf(spheres, pair, box));
     }
     if (depths.empty()) return overlap;
     overlap.rms = rmsOverlap(depths, spheres.count(), meanRadius(spheres));
@@ -147,6 +146,16 @@ double velocityNoise(const Spheres& spheres, double g, double dt) {
     double sum = 0;
     for (const Vec3 v : spheres.velocities) sum += squared(v);
     return std::sqrt(sum / static_cast<double>(spheres.count())) / (g * dt);
+}
+
+double floorLoad(const Spheres& before, const Spheres& after, double g, double time) {
+    double mass = 0, gained = 0;
+    for (std::size_t k = 0; k < after.count(); ++k) {
+        const double m = after.masses[k];
+        mass += m;
+        gained += m * (double(after.velocities[k].y) - before.velocities[k].y);
+    }
+    return 1 + gained / (mass * g * time);
 }
 
 double largestDistance(const Spheres& a, const Spheres& b) {

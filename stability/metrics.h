@@ -19,7 +19,8 @@ struct Overlap {
     std::size_t wallContacts = 0;  ///< of a ball and a wall
 };
 /// SimBenchmark's sum of squares, divided by N. Bodies that are not finite are left out.
-Overlap overlapOf(const Spheres& spheres, Bounds walls);
+/// A world that is `periodic` has no walls.
+Overlap overlapOf(const Spheres& spheres, Bounds walls, bool periodic = false);
 
 /// |p - p0| / sqrt(2 E0 M), with p the momentum, E0 the kinetic energy at the start, M the mass of
 /// all: 1 is as much momentum as the balls have if they all fly the same way.
@@ -69,6 +70,10 @@ double coordination(const Spheres& spheres, double slack);
 /// sqrt(<v^2>) / (g dt), g in m/s^2, dt in s: at rest, what gravity adds to a velocity in a step is
 /// the least that a scheme has to deal with.
 double velocityNoise(const Spheres& spheres, double g, double dt);
+
+/// What the floor (and the ceiling) gave in `time` s, over the weight of all: by the momentum that
+/// gravity would have given and did not. 1 for all that stands; it says nothing about how.
+double floorLoad(const Spheres& before, const Spheres& after, double g, double time);
 
 // Runs.
 

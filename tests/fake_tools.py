@@ -36,7 +36,7 @@ case $1 in
 --build)
     [ -n "${FAKE_SLOW:-}" ] && { echo $$ >"$FAKE_SLOW"; sleep 60; }
     [ -n "${FAKE_LOG:-}" ] && { cat "$FAKE_LOG"; exit 1; }
-    cp "$FAKE_PROGRAM" "$2/bin/$4"
+    cmp -s "$FAKE_PROGRAM" "$2/bin/$4" || cp "$FAKE_PROGRAM" "$2/bin/$4"
     ;;
 esac
 """

@@ -146,13 +146,16 @@ else:
     print("balls " + after("--count") + "\\nhash  0123")
 """
 
-# Put behind the real build.py: nothing is compiled.
+# Put behind the real build.py and variants.py: nothing is compiled.
 NO_BUILD = """
 
 def preset(): return "cpu-release"
 def configure(): pass
 def try_build(target): return None
 def build(targets): pass
+"""
+NO_VARIANTS = """
+
 def compile_variant(target, label, name, texts): return executable("check_02"), None
 """
 
@@ -193,8 +196,9 @@ class Miniature(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.root)
         shutil.copytree(PROJECT / "tools", self.root / "tools",
                         ignore=shutil.ignore_patterns("__pycache__", "figures_*", "cmake"))
-        with open(self.root / "tools/workbook/build.py", "a") as file:
-            file.write(NO_BUILD)
+        for module, replacement in (("build", NO_BUILD), ("variants", NO_VARIANTS)):
+            with open(self.root / f"tools/workbook/{module}.py", "a") as file:
+                file.write(replacement)
         self.write("CMakeLists.txt", "project(ballpit VERSION 0.1 LANGUAGES CXX)\n")
         self.write("chapters/01_alpha/README.md", lesson(lessons.SECTIONS, blocks=False))
         self.write("chapters/01_alpha/main.cu", "int main() {\n    return 1;\n}\n")

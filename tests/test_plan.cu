@@ -280,6 +280,19 @@ TEST_CASE("cells are as small as balls, but no more than can be cleared in the t
     CHECK(us[0] < us[1]);
 }
 
+TEST_CASE("a periodic box is searched by its grid, however few the balls and large the cells",
+          "[plan]") {
+    for (const float share : {0.3f, 0.001f}) {
+        const Scene box =
+            stability::makeGasOf({.count = 100, .volumeShare = share, .periodic = true});
+        CAPTURE(share);
+        const SimulatorSettings settings =
+            planned(settingsFor(box, Device::cpu), planOf(box), worldOf(box));
+        CHECK(settings.broadPhase == BroadPhaseMethod::grid);
+        CHECK_NOTHROW(PhysicsSimulator(settings));
+    }
+}
+
 TEST_CASE("floats that are too coarse are warned of, and only those", "[plan]") {
     // At 4 floats a step: 16.3 km / 2 from the origin.
     CHECK(planOf(stability::makeFarFromOrigin(3, 5000)).warnings.empty());

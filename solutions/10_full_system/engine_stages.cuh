@@ -28,7 +28,7 @@ public:
         : settings_(checked(settings)),
           count_(settings.objects),
           bodies_(settings.device, static_cast<std::size_t>(count_)),
-          grid_(settings.device, settings.bounds, settings_.cellSize, count_),
+          grid_(settings.device, gridBounds(settings_), settings_.cellSize, count_),
           pairs_(settings.device, static_cast<std::size_t>(count_), settings.firstPairCapacity()),
           response_(makeResponse(settings_)),
           status_(settings.device),
@@ -52,7 +52,7 @@ public:
     static std::size_t predictedBytes(const SimulatorSettings& s) {
         const auto count = static_cast<std::size_t>(s.objects);
         return RigidBodySystem::predictedBytes(count) +
-               UniformGrid::predictedBytes(s.bounds, withCells(s).cellSize, count) +
+               UniformGrid::predictedBytes(gridBounds(s), withCells(s).cellSize, count) +
                PairList::predictedBytes(count, s.firstPairCapacity()) + predictedResponseBytes(s);
     }
 

@@ -167,7 +167,7 @@ inline Summary runScene(const Options& options) {
     const Spheres final = simulator.bodies().download();
     if (!options.saveFile.empty()) writeSpheres(options.saveFile, final);
     engine.report(summary);
-    summary.metrics = measure(final, scene.bounds, scene.gravity, scene.dt);
+    summary.metrics = measure(final, scene.bounds, scene.gravity, scene.dt, scene.periodic);
     summary.hash = stateHash(final);
     summary.video = options.out;
     summary.picture = options.png;

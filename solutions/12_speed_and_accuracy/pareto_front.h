@@ -3,8 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
+
+//@starter #include "common/hole.cuh"
 
 namespace ballpit {
 
@@ -15,20 +18,34 @@ struct WorkPoint {
     bool failed = false;  ///< no result, however fast it was
 };
 
-/// Is `a` at least as good as `b` in both, and better in one?
-inline bool dominates(const WorkPoint& a, const WorkPoint& b) {
-    return a.speed >= b.speed && a.error <= b.error && (a.speed > b.speed || a.error < b.error);
+/// Has the run an error at all? One that failed has none, and NaN is none.
+inline bool hasResult(const WorkPoint& point) {
+    return !point.failed && !std::isnan(point.error) && !std::isnan(point.speed);
 }
 
-/// For each point, whether it is on the Pareto front: it has not failed, and no other that has not
-/// failed dominates it. Of points that are equal, all are on it or none.
+/// Is `a` at least as good as `b` in both, and better in one?
+inline bool dominates(const WorkPoint& a, const WorkPoint& b) {
+    //@hole front.beats lines=1 "At least as fast and as accurate, and in one of them better"
+    //@starter TODO_HOLE("front.beats");
+    //@starter return false;
+    return a.speed >= b.speed && a.error <= b.error && (a.speed > b.speed || a.error < b.error);
+    //@end
+}
+
+/// For each point, whether it is on the Pareto front: it has a result, and no other that has one
+/// dominates it. Of points that are equal, all are on it or none.
 inline std::vector<bool> paretoFront(std::span<const WorkPoint> points) {
     std::vector<bool> onFront;
-    for (const WorkPoint& point : points)
-        onFront.push_back(!point.failed &&
-                          std::none_of(points.begin(), points.end(), [&](const WorkPoint& other) {
-                              return !other.failed && dominates(other, point);
-                          }));
+    for (const WorkPoint& point : points) {
+        //@hole front.points lines=4 "On the front: has a result, and no other with one beats it"
+        //@starter TODO_HOLE("front.points");
+        //@starter onFront.push_back(hasResult(point));
+        const bool isBeaten = std::any_of(
+            points.begin(), points.end(),
+            [&](const WorkPoint& other) { return hasResult(other) && dominates(other, point); });
+        onFront.push_back(hasResult(point) && !isBeaten);
+        //@end
+    }
     return onFront;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "12_speed_and_accuracy/parts.h"
 #include "common/error.h"
 
 namespace ballpit {
@@ -42,14 +43,6 @@ struct Case {
     }
 };
 
-/// The smallest whole number of parts, at least 1, in which `whole` is at most `limit` each. If
-/// there are `now` parts already, they stay unless that is too few, or less than half would do.
-int partsFor(double whole, double limit, int most, int now) {
-    const double exact = limit > 0 ? whole / limit : most;
-    const int wanted = static_cast<int>(std::clamp(std::ceil(exact - 1e-9), 1.0, double(most)));
-    return now > 0 && wanted <= now && 2 * wanted > now ? now : wanted;
-}
-
 /// What a scene asks does not change while it runs.
 Aim aimOf(const Case& c) {
     if (c.before) return c.before->aim;
@@ -78,8 +71,7 @@ bool isNarrow(const Case& c) {
 double restShare(const Case& c) { return isNarrow(c) ? c.t.columnShare : c.t.heapShare; }
 
 int substepsForLoad(const Case& c, int now) {
-    return partsFor(std::sqrt(restShare(c) * columnLaw(c)), std::sqrt(c.tolerance), mostSubsteps,
-                    now);
+    return substepsFor(restShare(c) * columnLaw(c), c.tolerance, mostSubsteps, now);
 }
 
 /// Overlap of a column whose impulses start from the last step's, in radii, after so many passes.
@@ -269,6 +261,7 @@ void chooseResponseAndSteps(Plan& plan, const Case& c) {
 }
 
 void chooseBroadPhase(Plan& plan, const Case& c) {
+    if (c.world.periodic) return choose(plan, "broad phase", "grid", "the box is periodic");
     const bool naive = c.facts.count <= c.t.naiveMost;
     plan.broadPhase = naive ? BroadPhaseMethod::naive : BroadPhaseMethod::grid;
     choose(plan, "broad phase", naive ? "naive" : "grid",
@@ -277,13 +270,21 @@ void chooseBroadPhase(Plan& plan, const Case& c) {
                  : "naive: time grows with the square of the balls");
 }
 
+/// m: a periodic box needs three cells and a hair along every edge.
+double largestCell(const World& world) {
+    const Vec3 size = extent(world.walls);
+    const float shortest = minimum(size.x, minimum(size.y, size.z));
+    return world.periodic ? shortest / 3.2 : shortest;
+}
+
 /// As small as the largest ball, unless there would be too many cells.
 void chooseCells(Plan& plan, const Case& c) {
     plan.cellSize = c.world.cellSize;
     if (plan.broadPhase == BroadPhaseMethod::naive) return;
     const Vec3 size = extent(c.world.walls);
-    const double fewest = std::cbrt(double(size.x) * size.y * size.z /
-                                    (c.t.cellsABall * static_cast<double>(c.facts.count)));
+    const double fewest = std::min(
+        largestCell(c.world), std::cbrt(double(size.x) * size.y * size.z /
+                                        (c.t.cellsABall * static_cast<double>(c.facts.count))));
     const float diameter = 2.0f * c.facts.largestRadius;
     const bool sparse = fewest > double(diameter);
     plan.cellSize = sparse ? static_cast<float>(fewest) : diameter;

@@ -170,38 +170,3 @@ def set_mine(chapter, mine):
             if not header.exists() or header.read_text() != line:
                 header.parent.mkdir(parents=True, exist_ok=True)
                 header.write_text(line)
-
-
-def compile_variant(target, label, name, texts):
-    """Compiles a student's target of the chapter `label` with other pieces: `texts` maps a piece
-    ("02_grid_hash/grid_hash.cuh") to its changed text. The normal targets stay as they are. Returns
-    (executable or None, log).
-
-    Build its reference before: that makes the libraries which this links."""
-    variant = folder() / "variants" / label / name
-    shutil.rmtree(variant, ignore_errors=True)
-    for path, text in texts.items():
-        piece = variant / "pieces" / path
-        piece.parent.mkdir(parents=True, exist_ok=True)
-        piece.write_text(text)
-    log = variant / "build.log"
-    for command in _commands(target):
-        command = command.replace(str(folder() / "pieces" / label), str(variant / "pieces"))
-        command = command.replace(" -O3 ", " -O1 ")  # compiled once, run once: half the time
-        command = command.replace(f"CMakeFiles/{target}.dir/", f"{variant}/objects/")
-        command = command.replace(f" bin/{target} ", f" {variant}/{target} ")
-        for output in re.findall(r" -o (\S+)", command):
-            (folder() / output).parent.mkdir(parents=True, exist_ok=True)
-        if not processes.run_logged(["sh", "-c", command], log, cwd=folder()):
-            return None, log
-    return variant / target, log
-
-
-@functools.lru_cache(maxsize=None)
-def _commands(target):
-    """The commands that compile and link a target itself, without those of its libraries."""
-    listing = processes.output_of(["ninja", "-C", str(folder()), "-t", "commands", target]) or ""
-    commands = [line for line in listing.splitlines() if f"CMakeFiles/{target}.dir/" in line]
-    if not commands:
-        raise ToolError(f"Ninja knows no commands for {target} in {folder()}")
-    return commands

@@ -74,9 +74,10 @@ def _take(mutant, line, previous, where):
 
 
 def apply(mutant, chapter):
-    """The chapter's finished pieces with the mistake in: path -> text of every piece."""
+    """The chapter's finished pieces that have the mistake in: path -> text."""
     texts = {solution: markers.plain(piece)
              for solution, piece in zip(chapter.solutions, chapter.pieces())}
+    changed = set()
     for old, new in mutant.changes:
         block = "\n" + "\n".join(old) + "\n"
         places = [(path, ("\n" + text).count(block)) for path, text in texts.items()]
@@ -87,4 +88,5 @@ def apply(mutant, chapter):
         path = next(path for path, count in places if count)
         replacement = "\n" + "".join(line + "\n" for line in new)
         texts[path] = ("\n" + texts[path]).replace(block, replacement)[1:]
-    return texts
+        changed.add(path)
+    return {path: texts[path] for path in texts if path in changed}

@@ -4,7 +4,8 @@ must pass, and every classic mistake must be caught by the check that is there f
 import json
 from pathlib import Path
 
-from workbook import build, chapters, checking, compile_errors, explaining, markers, processes
+from workbook import (build, chapters, checking, compile_errors, explaining, markers, processes,
+                      variants)
 from workbook.errors import InputError, ToolError
 from workbook.mutants import apply, mutants_of
 from workbook.terminal import print_outcome, uncoloured
@@ -65,7 +66,7 @@ def verdict_on(program, chapter, args, options=(), picture=None):
 
 def compiled(target, label, name, texts):
     """(executable, "") or (None, why not). `texts`: a solution's path -> the changed text."""
-    program, log = build.compile_variant(target, label, name, {
+    program, log = variants.compile_variant(target, label, name, {
         f"{solution.parent.name}/{solution.name}": text for solution, text in texts.items()})
     if program:
         return program, ""
@@ -96,6 +97,8 @@ def proof(chapter, args, opened):
     """What is wrong when exactly the holes of `opened` are open? "" if nothing is."""
     solved = {hole.id for hole in chapter.holes()} - opened
     texts = starters(chapter, solved)
+    if len(opened) == 1:  # "every hole filled" shows that the other starters are right
+        texts = {path: text for path, text in texts.items() if opened <= holes_in(path)}
     name = f"open_{'_'.join(sorted(opened))}" if len(opened) == 1 else f"open_{len(opened)}"
     program, problem = compiled(f"check_{chapter.label}", chapter.label, name, texts)
     return problem or judge(verdict_on(program, chapter, args), opened)
@@ -105,6 +108,10 @@ def starters(chapter, solved):
     """Each piece's starter with the holes `solved` filled."""
     return {solution: markers.starter(piece, solved)
             for solution, piece in zip(chapter.solutions, chapter.pieces())}
+
+
+def holes_in(solution):
+    return {hole.id for hole in markers.parse(solution.read_text(), str(solution)).holes}
 
 
 def whole_system():
