@@ -29,7 +29,8 @@ Box spanOf(const SceneFacts& f, const World& w) {
 }  // namespace
 
 World worldOf(const Scene& scene) {
-    World world{scene.bounds, scene.gravity, scene.damping, scene.dt, scene.cellSize, 0, 0, 0};
+    World world{scene.bounds,  scene.gravity, scene.damping, scene.dt, scene.cellSize, 0, 0, 0,
+                scene.periodic};
     for (const double r : scene.spheres.radii) {
         world.ballVolume += 4.0 / 3.0 * pi * r * r * r;
         world.meanRadius += r / static_cast<double>(scene.spheres.count());

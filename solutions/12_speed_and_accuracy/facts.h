@@ -17,6 +17,7 @@ struct World {
     double ballVolume;  ///< m^3, of all balls
     double ballMass;    ///< kg, of all balls
     double meanRadius;  ///< m
+    bool periodic;      ///< no walls: what leaves on one side comes in on the other
 };
 
 /// The scene's world. Sums over the balls are made here, once: in double precision, in body order.

@@ -211,20 +211,23 @@ void chooseSteps(Plan& plan, const Case& c, double travel, double limit, const c
 /// How far may balls move between two looks, so that no more than the tolerance is missed?
 double travelForMissed(const Case& c) { return std::sqrt(c.tolerance / c.t.missedPerTravel); }
 
-/// Bounces off the floor cost energy, by g dt / speed each; and elastic balls that crowd gain some.
+/// Contacts that are found late, and so pushed apart, change the energy a little: of balls that
+/// crowd, to more and more.
 void chooseStepsForBounces(Plan& plan, const Case& c) {
-    const double speed = c.facts.speedToCome, depth = depthInBalls(c.facts, c.world);
+    const double travel = c.travel(c.facts.speedToCome), depth = depthInBalls(c.facts, c.world);
     const bool crowded = depth >= c.t.layers;
-    const double loss = speed > 0 ? c.t.bounceLoss * c.gravity() * c.world.frame / speed : 0;
-    const double ofCrowd = crowded ? c.travel(speed) / c.t.bounceTravel : 0;
-    plan.stepsAFrame = partsFor(std::max(loss / c.tolerance, ofCrowd), 1, mostSteps, stepsNow(c));
-    choose(plan, "steps a frame", std::to_string(plan.stepsAFrame),
-           format("%.3g balls deep, from %.3g on they crowd: then at most %.3g r a step, and the "
-                  "fastest to come moves %.3g r a frame; bounces lose %.3g of the energy / steps",
-                  depth, c.t.layers, c.t.bounceTravel, c.travel(speed), loss),
-           momentsOfContact);
+    const double limit = c.tolerance / c.t.bouncePerTravel;
+    plan.stepsAFrame = partsFor(travel, crowded ? std::min(limit, c.t.bounceTravel) : limit,
+                                mostSteps, stepsNow(c));
+    choose(
+        plan, "steps a frame", std::to_string(plan.stepsAFrame),
+        format("the fastest to come moves %.3g r a frame; limit %.3g r a step, and %.3g r if balls "
+               "crowd, %.3g of them deep or more: here %.3g",
+               travel, limit, c.t.bounceTravel, c.t.layers, depth),
+        momentsOfContact);
     constexpr double ofCrowds = 0.04;  // of 666, e = 1: no number of steps made it smaller
-    plan.predictedError = std::max(crowded ? ofCrowds : 0, loss / plan.stepsAFrame);
+    plan.predictedError =
+        std::max(crowded ? ofCrowds : 0, c.t.bouncePerTravel * travel / plan.stepsAFrame);
 }
 
 void chooseStepsForGas(Plan& plan, const Case& c) {
@@ -258,6 +261,7 @@ void chooseResponseAndSteps(Plan& plan, const Case& c) {
 }
 
 void chooseBroadPhase(Plan& plan, const Case& c) {
+    if (c.world.periodic) return choose(plan, "broad phase", "grid", "the box is periodic");
     const bool naive = c.facts.count <= c.t.naiveMost;
     plan.broadPhase = naive ? BroadPhaseMethod::naive : BroadPhaseMethod::grid;
     choose(plan, "broad phase", naive ? "naive" : "grid",
@@ -266,13 +270,21 @@ void chooseBroadPhase(Plan& plan, const Case& c) {
                  : "naive: time grows with the square of the balls");
 }
 
+/// m: a periodic box needs three cells and a hair along every edge.
+double largestCell(const World& world) {
+    const Vec3 size = extent(world.walls);
+    const float shortest = minimum(size.x, minimum(size.y, size.z));
+    return world.periodic ? shortest / 3.2 : shortest;
+}
+
 /// As small as the largest ball, unless there would be too many cells.
 void chooseCells(Plan& plan, const Case& c) {
     plan.cellSize = c.world.cellSize;
     if (plan.broadPhase == BroadPhaseMethod::naive) return;
     const Vec3 size = extent(c.world.walls);
-    const double fewest = std::cbrt(double(size.x) * size.y * size.z /
-                                    (c.t.cellsABall * static_cast<double>(c.facts.count)));
+    const double fewest = std::min(
+        largestCell(c.world), std::cbrt(double(size.x) * size.y * size.z /
+                                        (c.t.cellsABall * static_cast<double>(c.facts.count))));
     const float diameter = 2.0f * c.facts.largestRadius;
     const bool sparse = fewest > double(diameter);
     plan.cellSize = sparse ? static_cast<float>(fewest) : diameter;

@@ -25,24 +25,23 @@ std::string name(Aim aim);
 /// Where choices turn. Each number was read off runs; docs/how_it_works.md ("The plan") says which.
 /// tests/test_plan.cu multiplies one by 3, or divides it, and sees a scene fail.
 struct PlanThresholds {
-    int naiveMost = 200;            ///< balls for which comparing all with all is no slower
-    double cellsABall = 40;         ///< at most: more take longer to clear than to search
-    double thinShare = 0.1;         ///< of the volume: up to it, meetings are single
-    double heapShare = 0.75;        ///< rms overlap of a heap, over the column law's deepest
-    double columnShare = 1.1;       ///< deepest overlap of a narrow column, over the law's
-    double narrowSquares = 2.0;     ///< a narrow column stands on so many balls' squares at most
-    double warmShare = 0.107;       ///< of load^2 g dt^2 / r that balls overlap under warm
-    double safeOverlapSpeed = 0.3;  ///< overlap over substep that small-steps may begin with, over
-                                    ///< sqrt(g r)
-    double layers = 1.9;            ///< depth in balls from which bouncing balls crowd
-    double bounceTravel = 0.5;      ///< radii a step of elastic balls that crowd
-    double bounceLoss = 3.5;        ///< error of the energy of bouncing balls, a fall in a step (g
-                                    ///< dt) over the fastest
-    double anglePerTravel = 0.424;  ///< rad (24.3 degrees) that a late contact turns, a radius
-    double coolingPerTravel = 1.2;  ///< error of the energy left, a radius of rms travel
-    double missedPerTravel = 0.16;  ///< share of momentum not handed on, a radius^2 of travel
-    int mostContacts = 24;          ///< of a ball: so many colours there are
-    double leastFloats = 4;         ///< float neighbours that a step of gravity must be long
+    int naiveMost = 200;             ///< balls for which comparing all with all is no slower
+    double cellsABall = 40;          ///< at most: more take longer to clear than to search
+    double thinShare = 0.1;          ///< of the volume: up to it, meetings are single
+    double heapShare = 0.75;         ///< rms overlap of a heap, over the column law's deepest
+    double columnShare = 1.1;        ///< deepest overlap of a narrow column, over the law's
+    double narrowSquares = 2.0;      ///< a narrow column stands on so many balls' squares at most
+    double warmShare = 0.107;        ///< of load^2 g dt^2 / r that balls overlap under warm
+    double safeOverlapSpeed = 0.3;   ///< overlap over substep that small-steps may begin with, over
+                                     ///< sqrt(g r)
+    double layers = 1.9;             ///< depth in balls from which bouncing balls crowd
+    double bounceTravel = 0.5;       ///< radii a step of elastic balls that crowd
+    double bouncePerTravel = 0.036;  ///< error of the energy of bouncing balls, a radius of travel
+    double anglePerTravel = 0.424;   ///< rad (24.3 degrees) that a late contact turns, a radius
+    double coolingPerTravel = 1.2;   ///< error of the energy left, a radius of rms travel
+    double missedPerTravel = 0.16;   ///< share of momentum not handed on, a radius^2 of travel
+    int mostContacts = 24;           ///< of a ball: so many colours there are
+    double leastFloats = 4;          ///< float neighbours that a step of gravity must be long
 };
 
 struct Choice {
