@@ -9,6 +9,7 @@
 #include "stability/question.h"
 #include "stability/scenes.h"
 #include "tests/support.h"
+#include "tests/with_threads.h"
 
 namespace ballpit::test {
 
@@ -112,6 +113,7 @@ inline Work workOfStep(PhysicsSimulator& simulator) {
 template <class Frame>
 Run runFrames(const Start& start, PhysicsSimulator& simulator, double dt, const StillOf& goesOn,
               Frame frame) {
+    const WithThreads one(1);  // for so few balls a second thread costs more than it brings
     const auto meter = start.question->meter(start.scene, dt);
     const double length = start.scene.dt;
     const int frames = static_cast<int>(std::ceil(start.seconds / length - 1e-6));
