@@ -15,7 +15,7 @@ struct BodiesView {
     View<Vec4> velocities;     ///< x, y, z in m/s; w: 1 / mass in 1/kg
     View<float> restitutions;  ///< 0 (dead stop) to 1 (elastic)
     View<std::uint32_t> ids;   ///< the body's number as the user knows it
-    Vec3 period{};             ///< m: edges of a periodic box; 0 between walls
+    Vec4 period{};             ///< x, y, z in m: edges of a periodic box; 0 between walls
 };
 
 /// In a box with these edges that goes on where it ends, each body has an image one edge further,
@@ -36,7 +36,9 @@ HD inline Vec3 toNearestImage(Vec3 between, Vec3 period) {
 /// nearest image of b.)
 HD inline Vec3 betweenCentres(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
     const Vec3 between = xyz(bodies.positions[b]) - xyz(bodies.positions[a]);
-    return bodies.period.x > 0.0f ? toNearestImage(between, bodies.period) : between;
+    if (bodies.period.x > 0.0f) [[unlikely]]
+        return toNearestImage(between, xyz(bodies.period));
+    return between;
 }
 
 /// What a step must tell the host. Lives on the device; zero (noBody for the ids) at step start.

@@ -153,7 +153,7 @@ public:
         MovingArrays& moving = moving_[copies.moving];
         FixedArrays& fixed = fixed_[copies.fixed];
         return {moving.positions.view(), moving.velocities.view(), fixed.restitutions.view(),
-                fixed.ids.view(), period};
+                fixed.ids.view(), withW(period, 0)};
     }
 
     std::size_t bytes() const {

@@ -1,5 +1,6 @@
 // A box without walls: pairs meet across its faces, nothing is lost, and the bits are the same.
 #include "common/host_pairs.h"
+#include "common/options.h"
 #include "common/random.h"
 #include "common/with_threads.h"
 #include "stability/metrics.h"
@@ -216,7 +217,16 @@ TEST_CASE("a periodic box is refused with gravity, and to responses that need wa
         CHECK(test::contains(message, "use mass-split, racy, atomic, jacobi or coloured"));
     }
     scene.gravity = {0, -1, 0};
-    CHECK(test::contains(refusalOf(scene), "gravity must be 0"));
+    CHECK(test::contains(refusalOf(scene), "use gravity 0, or walls"));
+}
+
+TEST_CASE("--periodic makes any scene's world periodic", "[stability]") {
+    Options options;
+    options.scene = "elastic_gas";
+    options.count = 343;
+    CHECK_FALSE(sceneFor(options).periodic);
+    options.periodic = true;
+    CHECK(settingsFor(sceneFor(options), Device::cpu).periodic);
 }
 
 TEST_CASE("a periodic box that is too small for three cells is refused", "[stability]") {

@@ -26,7 +26,7 @@ inline Questions questionsNamed(const std::string& name) {
 }
 
 /// What --scene can be.
-inline std::string sceneChoice() {
+inline std::string questionChoice() {
     return "few (three of them), every, or one of " + stability::questionNames();
 }
 
@@ -41,8 +41,9 @@ inline std::vector<Loop> sweep() {
     for (const int passes : {4, 16})
         loops.push_back({"warm, " + std::to_string(passes) + " passes", warm, passes});
     for (const int substeps : {1, 2, 4, 8, 16})
-        loops.push_back(
-            {"small-steps, " + std::to_string(substeps) + " substeps", smallSteps, substeps});
+        loops.push_back({"small-steps, " + std::to_string(substeps) +
+                             (substeps == 1 ? " substep" : " substeps"),
+                         smallSteps, substeps});
     loops.push_back(plannedLoop());
     return loops;
 }
@@ -78,14 +79,14 @@ inline void tellBoth(Findings& findings, const stability::Question& question,
     }
 }
 
-/// "on the front", "beaten by 3", "failed".
+/// ": on the front", ": beaten by 3"; nothing for who has failed.
 inline std::string standing(const std::vector<WorkPoint>& points, std::size_t k, bool isOnFront) {
-    if (points[k].failed) return "failed";
-    if (isOnFront) return "on the front";
+    if (points[k].failed) return "";
+    if (isOnFront) return ": on the front";
     const auto better = std::count_if(points.begin(), points.end(), [&](const WorkPoint& other) {
         return hasResult(other) && dominates(other, points[k]);
     });
-    return "beaten by " + std::to_string(better);
+    return ": beaten by " + std::to_string(better);
 }
 
 /// All loops of the sweep in one scene, and which of them are on the front.
@@ -101,7 +102,7 @@ inline void tellFront(Findings& findings, const stability::Question& question,
     const std::vector<bool> front = paretoFront(points);
     for (std::size_t k = 0; k < loops.size(); ++k) {
         const std::string who = std::string(question.scene) + ": " + loops[k].name;
-        findings.add(who, inWords(answers[k]) + ": " + standing(points, k, front[k]));
+        findings.add(who, inWords(answers[k]) + standing(points, k, front[k]));
         std::vector<double> numbers = inNumbers(answers[k], question);
         numbers.push_back(front[k] ? 1 : 0);
         findings.list(who + ", numbers", numbers);

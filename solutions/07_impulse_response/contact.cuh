@@ -31,8 +31,10 @@ struct Contact {
     float separation;   ///< m/s: how fast they leave each other; negative while they approach
 };
 
-/// The contact of the balls in slots a and b.
-HD inline Contact contactBetween(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
+/// The contact of the balls in slots a and b. Always inlined: a compiler that calls it instead
+/// takes a tenth longer for a whole response.
+[[gnu::always_inline]] HD inline Contact contactBetween(std::uint32_t a, std::uint32_t b,
+                                                        const BodiesView& bodies) {
     const Vec3 between = betweenCentres(a, b, bodies), line = lineOfCentres(a, b, bodies);
     const float reach = bodies.positions[a].w + bodies.positions[b].w;
     //@hole impulse.contact lines=4 "Normal, overlap, and speed of separation, from the line"

@@ -82,7 +82,7 @@ inline Bounds gridBounds(const SimulatorSettings& s) {
 /// InputError if a periodic box is asked for what it cannot have.
 inline void requireSensibleBox(const SimulatorSettings& s) {
     if (!(s.gravity == Vec3{}))
-        throw InputError("a periodic box has no floor: gravity must be 0 in it");
+        throw InputError("a periodic box has no floor to fall to: use gravity 0, or walls");
     if (s.broadPhase == BroadPhaseMethod::naive)
         throw InputError("a periodic box is searched by its grid: not by the naive broad phase");
     using enum ResponseMethod;

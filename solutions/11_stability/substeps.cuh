@@ -66,8 +66,10 @@ public:
     void detectWithinReach(Copies copies, int moves) {
         timer_.start("broad phase");
         const BodiesView bodies = bodies_.view(copies);
+        // A list that serves one substep alone needs no more than the least slack.
+        const float slack = (moves == 0 ? ReachSlack() : slack_).inRadii();
         const ReachSettings reach{static_cast<float>(moves) * substep(), length(settings_.gravity),
-                                  slack_.inRadii(), 0.5f * grid_.cellSize};
+                                  slack, 0.5f * grid_.cellSize};
         launch<growByReach>(settings_.device, count_, bodies, reach, grown_.view());
         findPairsGrid(settings_.device, count_, grid_.view(), grid_.sortedHashes.view(),
                       grown_.view(), pairs_, status_.view(), scratch_);

@@ -29,7 +29,8 @@ Box spanOf(const SceneFacts& f, const World& w) {
 }  // namespace
 
 World worldOf(const Scene& scene) {
-    World world{scene.bounds, scene.gravity, scene.damping, scene.dt, scene.cellSize, 0, 0, 0};
+    World world{scene.bounds,  scene.gravity, scene.damping, scene.dt, scene.cellSize, 0, 0, 0,
+                scene.periodic};
     for (const double r : scene.spheres.radii) {
         world.ballVolume += 4.0 / 3.0 * pi * r * r * r;
         world.meanRadius += r / static_cast<double>(scene.spheres.count());
@@ -61,24 +62,6 @@ double loadOnLightest(const SceneFacts& f, const World& w) {
     const double square = 4.0 * f.smallestRadius * f.smallestRadius;
     const double share = std::min(1.0, square / floorCovered(f, w));
     return (w.ballMass - f.smallestMass) * share / f.smallestMass;
-}
-
-namespace {
-
-/// J/kg: what gravity along one axis does on the longest way to a wall there is.
-double workAlong(double g, double lower, double upper, double wallBelow, double wallAbove) {
-    return g < 0 ? -g * std::max(0.0, upper - wallBelow) : g * std::max(0.0, wallAbove - lower);
-}
-
-}  // namespace
-
-double speedToCome(const SceneFacts& f, const World& w) {
-    const Vec3 low = f.span.lower, high = f.span.upper, below = w.walls.lower,
-               above = w.walls.upper;
-    const double work = workAlong(w.gravity.x, low.x, high.x, below.x, above.x) +
-                        workAlong(w.gravity.y, low.y, high.y, below.y, above.y) +
-                        workAlong(w.gravity.z, low.z, high.z, below.z, above.z);
-    return std::sqrt(double(f.largestSpeed) * f.largestSpeed + 2 * work);
 }
 
 double farthestCoordinate(const World& w) {

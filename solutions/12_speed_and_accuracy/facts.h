@@ -17,6 +17,7 @@ struct World {
     double ballVolume;  ///< m^3, of all balls
     double ballMass;    ///< kg, of all balls
     double meanRadius;  ///< m
+    bool periodic;      ///< no walls: what leaves on one side comes in on the other
 };
 
 /// The scene's world. Sums over the balls are made here, once: in double precision, in body order.
@@ -25,8 +26,9 @@ World worldOf(const Scene& scene);
 /// The state of the balls at one moment.
 struct SceneFacts {
     int count = 0;
-    float smallestRadius = 0, largestRadius = 0;            ///< m
-    float largestSpeed = 0, rmsSpeed = 0;                   ///< m/s
+    float smallestRadius = 0, largestRadius = 0;  ///< m
+    float largestSpeed = 0, rmsSpeed = 0;         ///< m/s
+    float speedToCome = 0;  ///< m/s: the largest that any ball has on arriving at a wall below it
     float smallestRestitution = 0, largestRestitution = 0;  ///< 0 to 1
     float smallestMass = 0, largestMass = 0;                ///< kg
     Bounds span{};                                          ///< m: a box around all balls
@@ -51,9 +53,6 @@ double depthInBalls(const SceneFacts& facts, const World& world);
 /// How many times its own weight the lightest ball carries at the bottom of that heap: the weight
 /// of all others on the floor they lie on, times the square that the ball takes up.
 double loadOnLightest(const SceneFacts& facts, const World& world);
-
-/// m/s: the largest speed now, and what a fall to the floor can add.
-double speedToCome(const SceneFacts& facts, const World& world);
 
 /// The largest coordinate of the walls, m, and how many floats lie between two places that gravity
 /// (or, without it, the fastest ball) brings one another's way in a step of dt s.

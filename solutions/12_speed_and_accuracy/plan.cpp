@@ -87,12 +87,13 @@ int warmPasses(const Case& c) {
     return passes;
 }
 
-/// Overlaps are speed for small-steps. How deep may balls be in each other when it begins? As deep
-/// as their weight will press them anyway, or as no more speed than a tenth of a fall gives.
+/// Overlaps become speed under small-steps. How deep may balls be in each other when it begins, in
+/// radii? So that they part with a share of sqrt(g r); or, if they lay still under another
+/// response, as their load presses them anyway.
 double safeOverlap(const Case& c, int substeps) {
     const double h = double(c.world.frame) / substeps, r = c.facts.smallestRadius;
     const double slow = c.t.safeOverlapSpeed * std::sqrt(c.gravity() * r) * h / r;
-    return std::max(slow, columnLaw(c) / (substeps * substeps));
+    return c.before ? std::max(slow, columnLaw(c) / (substeps * substeps)) : slow;
 }
 
 void choose(Plan& plan, std::string what, std::string value, std::string because,
@@ -108,28 +109,23 @@ int substepsNow(const Case& c) {
 }
 
 void chooseSmallSteps(Plan& plan, const Case& c) {
-    const double fast = c.travel(speedToCome(c.facts, c.world));
-    const int forLoad = substepsForLoad(c, substepsNow(c));
-    const int forSpeed = partsFor(fast, c.t.heapTravel, mostSubsteps, substepsNow(c));
-    const int substeps = std::max(forLoad, forSpeed);
+    const int substeps = substepsForLoad(c, substepsNow(c));
     plan.response = ResponseMethod::smallSteps;
     plan.knobs.iterations = 1;
     plan.knobs.substeps = substeps;
     plan.predictedError = restShare(c) * columnLaw(c) / (double(substeps) * substeps);
-    choose(
-        plan, "response", "small-steps",
-        format("gravity, and restitution %.3g < 1: balls come to rest on each other",
-               double(c.facts.smallestRestitution)),
-        "mass-split, jacobi, coloured: a heap sinks under them (docs/stability.md, column); warm: "
-        "twice the time a visit, error / 2 for twice the passes where substeps give / 4");
+    choose(plan, "response", "small-steps",
+           format("gravity, and restitution from %.3g: balls come to rest on each other",
+                  double(c.facts.smallestRestitution)),
+           "mass-split, jacobi, coloured: a heap sinks under them; warm: half the error for twice "
+           "the passes, where twice the substeps leave a quarter");
     choose(
         plan, "substeps", std::to_string(substeps),
-        format("load %.3g balls on the lowest: %.3g r at 1 substep, / substeps^2, %.2g of it rms; "
-               "tolerance %.3g; and the fastest to come moves %.3g r a frame, limit %.3g a substep",
-               loadOnLightest(c.facts, c.world), columnLaw(c), restShare(c), c.tolerance, fast,
-               c.t.heapTravel),
-        "more passes: one pass in a smaller substep is always better (error / 4 for twice the "
-        "work, where passes give / 2)");
+        format("a load of %.3g balls on the lowest presses it %.3g r deep / substeps^2; %.2g of "
+               "that, rms; tolerance %.3g",
+               loadOnLightest(c.facts, c.world), columnLaw(c), restShare(c), c.tolerance),
+        "more of them for fast balls: whatever the speed, a heap comes to rest as its load says; "
+        "more passes in each: as much work, less gain");
 }
 
 void chooseWarm(Plan& plan, const Case& c, const std::string& because, const std::string& leftOut) {
@@ -156,12 +152,11 @@ bool startsTooDeep(const Case& c) {
 void chooseForRest(Plan& plan, const Case& c) {
     if (substepsNow(c) > 0) return chooseSmallSteps(plan, c);
     if (startsTooDeep(c))
-        return chooseWarm(plan, c,
-                          format("balls overlap by %.3g r now; small-steps would make more than "
-                                 "%.2g sqrt(g r) of speed of more than %.3g r",
-                                 double(c.facts.deepestOverlap), c.t.safeOverlapSpeed,
-                                 safeOverlap(c, substepsForLoad(c, 0))),
-                          "small-steps until that is over: overlap becomes speed there");
+        return chooseWarm(
+            plan, c,
+            format("balls overlap by up to %.3g r now; small-steps can begin with %.3g r",
+                   double(c.facts.deepestOverlap), safeOverlap(c, substepsForLoad(c, 0))),
+            "small-steps, until that is over: overlaps become speed there");
     if (warmIsCheaper(c))
         return chooseWarm(
             plan, c,
@@ -201,39 +196,51 @@ void chooseImpulses(Plan& plan, const Case& c) {
 
 int stepsNow(const Case& c) { return c.before ? c.before->stepsAFrame : 0; }
 
+constexpr const char* momentsOfContact =
+    "finding the moment of contact within a step (continuous detection): not in the engine, "
+    "smaller "
+    "steps meet the tolerance of all charted scenes";
+
 void chooseSteps(Plan& plan, const Case& c, double travel, double limit, const char* rule) {
     plan.stepsAFrame = partsFor(travel, limit, mostSteps, stepsNow(c));
     choose(plan, "steps a frame", std::to_string(plan.stepsAFrame),
-           format("%.3g r a frame; limit %.3g r: ", travel, limit) + rule,
-           "finding the moment of contact within a step (continuous detection): not in the engine, "
-           "smaller steps meet the tolerance of all charted scenes");
+           format("the fastest moves %.3g r a frame; limit %.3g r a step: ", travel, limit) + rule,
+           momentsOfContact);
 }
 
 /// How far may balls move between two looks, so that no more than the tolerance is missed?
 double travelForMissed(const Case& c) { return std::sqrt(c.tolerance / c.t.missedPerTravel); }
 
+/// Contacts that are found late, and so pushed apart, change the energy a little: of balls that
+/// crowd, to more and more.
 void chooseStepsForBounces(Plan& plan, const Case& c) {
-    const double speed = speedToCome(c.facts, c.world), depth = depthInBalls(c.facts, c.world);
-    const bool crowded = depth >= c.t.layer;
-    chooseSteps(plan, c, crowded ? c.travel(speed) : 0, c.t.bounceTravel,
-                crowded ? "beyond, elastic balls of a heap gain energy (666 with e = 1)"
-                        : "the balls lie less than a layer deep, and hardly meet each other");
-    constexpr double crowdsError = 0.04;  // of 666, e = 1: no number of steps made it smaller
+    const double travel = c.travel(c.facts.speedToCome), depth = depthInBalls(c.facts, c.world);
+    const bool crowded = depth >= c.t.layers;
+    const double limit = c.tolerance / c.t.bouncePerTravel;
+    plan.stepsAFrame = partsFor(travel, crowded ? std::min(limit, c.t.bounceTravel) : limit,
+                                mostSteps, stepsNow(c));
+    choose(
+        plan, "steps a frame", std::to_string(plan.stepsAFrame),
+        format("the fastest to come moves %.3g r a frame; limit %.3g r a step, and %.3g r if balls "
+               "crowd, %.3g of them deep or more: here %.3g",
+               travel, limit, c.t.bounceTravel, c.t.layers, depth),
+        momentsOfContact);
+    constexpr double ofCrowds = 0.04;  // of 666, e = 1: no number of steps made it smaller
     plan.predictedError =
-        crowded ? crowdsError : c.gravity() * c.world.frame / plan.stepsAFrame / speed;
+        std::max(crowded ? ofCrowds : 0, c.t.bouncePerTravel * travel / plan.stepsAFrame);
 }
 
 void chooseStepsForGas(Plan& plan, const Case& c) {
     const double travel = c.travel(c.facts.largestSpeed);
     chooseSteps(plan, c, travel, travelForMissed(c),
-                "the share of missed impulses is travel^2 / 12");
+                "beyond, more than the tolerance is handed on wrongly, as travel^2");
     plan.predictedError = c.t.missedPerTravel * std::pow(travel / plan.stepsAFrame, 2.0);
 }
 
 void chooseStepsForCooling(Plan& plan, const Case& c) {
     const double travel = c.travel(c.facts.rmsSpeed);
     chooseSteps(plan, c, travel, c.tolerance / c.t.coolingPerTravel,
-                "of rms speed; collisions that come late cool too slowly (gas map)");
+                "that is the rms speed; collisions that come late cool too slowly (gas map)");
     plan.predictedError = c.t.coolingPerTravel * travel / plan.stepsAFrame;
 }
 
@@ -254,6 +261,7 @@ void chooseResponseAndSteps(Plan& plan, const Case& c) {
 }
 
 void chooseBroadPhase(Plan& plan, const Case& c) {
+    if (c.world.periodic) return choose(plan, "broad phase", "grid", "the box is periodic");
     const bool naive = c.facts.count <= c.t.naiveMost;
     plan.broadPhase = naive ? BroadPhaseMethod::naive : BroadPhaseMethod::grid;
     choose(plan, "broad phase", naive ? "naive" : "grid",
@@ -262,21 +270,32 @@ void chooseBroadPhase(Plan& plan, const Case& c) {
                  : "naive: time grows with the square of the balls");
 }
 
-/// A cell as small as the largest ball: the response makes it larger where balls must reach beyond
-/// themselves.
+/// m: a periodic box needs three cells and a hair along every edge.
+double largestCell(const World& world) {
+    const Vec3 size = extent(world.walls);
+    const float shortest = minimum(size.x, minimum(size.y, size.z));
+    return world.periodic ? shortest / 3.2 : shortest;
+}
+
+/// As small as the largest ball, unless there would be too many cells.
 void chooseCells(Plan& plan, const Case& c) {
-    const float diameter = 2.0f * c.facts.largestRadius;
-    plan.cellSize = diameter > 0 ? diameter : c.world.cellSize;
+    plan.cellSize = c.world.cellSize;
     if (plan.broadPhase == BroadPhaseMethod::naive) return;
+    const Vec3 size = extent(c.world.walls);
+    const double fewest = std::min(
+        largestCell(c.world), std::cbrt(double(size.x) * size.y * size.z /
+                                        (c.t.cellsABall * static_cast<double>(c.facts.count))));
+    const float diameter = 2.0f * c.facts.largestRadius;
+    const bool sparse = fewest > double(diameter);
+    plan.cellSize = sparse ? static_cast<float>(fewest) : diameter;
     const double spread = c.facts.largestRadius / std::max(c.facts.smallestRadius, 1e-9f);
-    const bool reaches = plan.knobs.substeps.value_or(1) > 1;
     choose(plan, "cell size", format("%.4g m", double(plan.cellSize)),
-           format("the largest diameter%s; radii spread %.3g fold",
-                  reaches ? ", times 1.4 within small-steps, so that one list serves all substeps"
-                          : "",
-                  spread),
-           spread > 3 ? "a grid for each size (worth it beyond a spread of 3): not in the engine"
-                      : "");
+           sparse ? format("%.3g cells a ball", c.t.cellsABall) +
+                        ": more take longer to clear than to search"
+                  : format("the largest diameter (more where balls reach beyond themselves, in "
+                           "substeps); radii spread %.3g fold",
+                           spread),
+           "a grid for each size of ball (it would pay beyond a spread of 3): not in the engine");
 }
 
 /// Floats have 24 digits: far from the origin, small motions round to nothing.

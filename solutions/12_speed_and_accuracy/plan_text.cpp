@@ -48,7 +48,7 @@ std::string factsText(const SceneFacts& f, const World& w) {
     text +=
         format("  speed                up to %.4g m/s (rms %.4g), %.3g r a frame; to come %.4g\n",
                double(f.largestSpeed), double(f.rmsSpeed),
-               double(f.largestSpeed) * w.frame / f.smallestRadius, speedToCome(f, w));
+               double(f.largestSpeed) * w.frame / f.smallestRadius, double(f.speedToCome));
     text += format("  gravity              %.4g m/s^2\n", double(length(w.gravity)));
     text += format("  volume share         %.3g where the balls are\n", volumeShare(f, w));
     text += format("  depth                %.3g balls, a load of %.3g on the lowest\n",

@@ -16,16 +16,17 @@ constexpr long framesBetweenReadings = 120;
 /// Plans for a simulator, at its start and whenever facts are read again.
 class Planner {
 public:
-    /// Reads the facts of what is in the simulator and has it follow the plan. `steps` made so far:
-    /// none.
-    Planner(PhysicsSimulator& simulator, const Scene& scene, double tolerance)
+    /// Reads the facts of what is in the simulator and has it follow the plan.
+    Planner(PhysicsSimulator& simulator, const Scene& scene, double tolerance,
+            const PlanThresholds& thresholds = {})
         : simulator_(simulator),
           settings_(simulator.settings()),
           world_(worldOf(scene)),
           tolerance_(tolerance),
+          thresholds_(thresholds),
           reader_(settings_.device, settings_.objects) {
         const Timing timing(*this);
-        adopt(makePlan(reader_.read(simulator_), world_, tolerance_));
+        adopt(makePlan(reader_.read(simulator_), world_, tolerance_, thresholds_));
     }
 
     const Plan& plan() const { return plan_; }
@@ -37,7 +38,8 @@ public:
     std::optional<std::string> beforeFrame(long frame) {
         if (frame % framesBetweenReadings != 0) return std::nullopt;
         const Timing timing(*this);
-        const Plan next = makePlan(reader_.read(simulator_), world_, tolerance_, {}, &plan_);
+        const Plan next =
+            makePlan(reader_.read(simulator_), world_, tolerance_, thresholds_, &plan_);
         if (sameSettings(next, plan_)) return std::nullopt;
         const std::string line = "frame " + std::to_string(frame) + ": " + inShort(plan_) + " -> " +
                                  inShort(next) + " (" + reasonOf(next) + ")";
@@ -79,6 +81,7 @@ private:
     SimulatorSettings settings_;  ///< those of the scene
     World world_;
     double tolerance_;
+    PlanThresholds thresholds_;
     FactReader reader_;
     Plan plan_;
     double milliseconds_ = 0;

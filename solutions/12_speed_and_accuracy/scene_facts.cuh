@@ -18,7 +18,7 @@ constexpr int mostLanes = 1024;
 /// What a lane has seen of its bodies.
 struct BodyNotes {
     Vec3 lower, upper;  ///< m: corners of a box around the balls
-    float smallestRadius, largestRadius, squaredSpeed, sumOfSquaredSpeeds;
+    float smallestRadius, largestRadius, squaredSpeed, sumOfSquaredSpeeds, squaredSpeedToCome;
     float smallestRestitution, largestRestitution, smallestInverseMass, largestInverseMass;
 };
 
@@ -35,13 +35,38 @@ HD inline Vec3 upperOf(Vec3 a, Vec3 b) {
     return {maximum(a.x, b.x), maximum(a.y, b.y), maximum(a.z, b.z)};
 }
 
+/// What balls fall to.
+struct Fall {
+    Vec3 gravity;  ///< m/s^2
+    Bounds walls;  ///< m
+};
+
+/// J/kg: what gravity along one axis does on the way to the wall below.
+HD inline float workAlong(float g, float place, float lower, float upper) {
+    return g < 0.0f ? -g * maximum(place - lower, 0.0f) : g * maximum(upper - place, 0.0f);
+}
+HD inline float workOfFall(Vec3 place, const Fall& fall) {
+    const Vec3 g = fall.gravity, lower = fall.walls.lower, upper = fall.walls.upper;
+    return workAlong(g.x, place.x, lower.x, upper.x) + workAlong(g.y, place.y, lower.y, upper.y) +
+           workAlong(g.z, place.z, lower.z, upper.z);
+}
+
 /// Body i alone.
-HD inline BodyNotes notesOf(int i, const BodiesView& bodies) {
+HD inline BodyNotes notesOf(int i, const BodiesView& bodies, const Fall& fall) {
     const Vec4 sphere = bodies.positions[i], moving = bodies.velocities[i];
     const Vec3 r{sphere.w, sphere.w, sphere.w};
     const float squaredSpeed = lengthSquared(xyz(moving)), e = bodies.restitutions[i];
-    return {xyz(sphere) - r, xyz(sphere) + r, sphere.w, sphere.w, squaredSpeed, squaredSpeed, e, e,
-            moving.w,        moving.w};
+    return {xyz(sphere) - r,
+            xyz(sphere) + r,
+            sphere.w,
+            sphere.w,
+            squaredSpeed,
+            squaredSpeed,
+            squaredSpeed + 2.0f * workOfFall(xyz(sphere), fall),
+            e,
+            e,
+            moving.w,
+            moving.w};
 }
 
 /// Two notes in one.
@@ -52,6 +77,7 @@ HD inline BodyNotes together(const BodyNotes& a, const BodyNotes& b) {
             maximum(a.largestRadius, b.largestRadius),
             maximum(a.squaredSpeed, b.squaredSpeed),
             a.sumOfSquaredSpeeds + b.sumOfSquaredSpeeds,
+            maximum(a.squaredSpeedToCome, b.squaredSpeedToCome),
             minimum(a.smallestRestitution, b.smallestRestitution),
             maximum(a.largestRestitution, b.largestRestitution),
             minimum(a.smallestInverseMass, b.smallestInverseMass),
@@ -60,10 +86,11 @@ HD inline BodyNotes together(const BodyNotes& a, const BodyNotes& b) {
 
 /// Lane `lane` of so many notes down what it sees of `count` bodies; there are at least as many
 /// bodies as lanes.
-HD inline void noteBodies(int lane, int lanes, int count, BodiesView bodies,
+HD inline void noteBodies(int lane, int lanes, int count, BodiesView bodies, Fall fall,
                           View<BodyNotes> notes) {
-    BodyNotes seen = notesOf(lane, bodies);
-    for (int i = lane + lanes; i < count; i += lanes) seen = together(seen, notesOf(i, bodies));
+    BodyNotes seen = notesOf(lane, bodies, fall);
+    for (int i = lane + lanes; i < count; i += lanes)
+        seen = together(seen, notesOf(i, bodies, fall));
     notes[lane] = seen;
 }
 
@@ -79,7 +106,7 @@ HD inline float massRatioOf(float inverseA, float inverseB) {
 }
 
 /// In radii of the smaller ball.
-HD inline float overlapOf(Vec4 a, Vec4 b) {
+HD inline float overlapInRadii(Vec4 a, Vec4 b) {
     const float smaller = minimum(a.w, b.w);
     return smaller > 0.0f ? (a.w + b.w - length(xyz(b) - xyz(a))) / smaller : 0.0f;
 }
@@ -96,7 +123,7 @@ HD inline void notePairs(int lane, int lanes, int count, BodiesView bodies, Pair
             seen.massRatio = maximum(seen.massRatio,
                                      massRatioOf(bodies.velocities[i].w, bodies.velocities[j].w));
             seen.deepestOverlap =
-                maximum(seen.deepestOverlap, overlapOf(bodies.positions[i], bodies.positions[j]));
+                maximum(seen.deepestOverlap, overlapInRadii(bodies.positions[i], bodies.positions[j]));
         }
     }
     notes[lane] = seen;
@@ -114,7 +141,9 @@ public:
 
     SceneFacts read(PhysicsSimulator& simulator) {
         const PhysicsSimulator::Survey now = simulator.survey();
-        launch<noteBodies>(device_, lanes_, lanes_, count_, now.bodies, bodyNotes_.view());
+        const SimulatorSettings& s = simulator.settings();
+        launch<noteBodies>(device_, lanes_, lanes_, count_, now.bodies, Fall{s.gravity, s.bounds},
+                           bodyNotes_.view());
         launch<countSeconds>(device_, count_, now.pairs, now.counts);
         launch<notePairs>(device_, lanes_, lanes_, count_, now.bodies, now.pairs,
                           View<const std::uint32_t>(now.counts), pairNotes_.view());
@@ -137,6 +166,7 @@ private:
         f.span = {all.lower, all.upper};
         f.smallestRadius = all.smallestRadius, f.largestRadius = all.largestRadius;
         f.largestSpeed = std::sqrt(all.squaredSpeed);
+        f.speedToCome = std::sqrt(all.squaredSpeedToCome);
         f.rmsSpeed = static_cast<float>(std::sqrt(squares / count_));
         f.smallestRestitution = all.smallestRestitution;
         f.largestRestitution = all.largestRestitution;
