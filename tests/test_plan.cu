@@ -6,6 +6,7 @@
 #include "12_speed_and_accuracy/plan_text.h"
 
 #include "common/error.h"
+#include "stability/metrics.h"
 #include "tests/plan_runs.h"
 #include "tests/plan_scenes.h"
 #include "tests/with_threads.h"
@@ -375,6 +376,7 @@ TEST_CASE(
     const Scene scene = makeScene("pile", 343, 1);
     SimulatorSettings grid = settingsFor(scene, device);
     grid.response = method;
+    grid.iterations = 1;  // after a round, states differ in their last bits, and so may pairs
     SimulatorSettings naive = grid;
     naive.broadPhase = BroadPhaseMethod::naive;
     const auto pairsOf = [&](const SimulatorSettings& settings) {
@@ -468,17 +470,17 @@ TEST_CASE(
     const int count = GENERATE(500, 2000, 5000);
     CAPTURE(count);
     const Scene scene = makeScene("gravity_fall", count, 1);
-    constexpr int frames = 300;
+    constexpr int frames = 360;
+    const Spheres plan = follow(scene, Device::cpu, frames).end;
+    const Spheres original = test::simulate(scene, settingsFor(scene, Device::cpu), frames);
+    const auto overlap = [&](const Spheres& s) { return stability::overlapOf(s, scene.bounds); };
+    CHECK(overlap(plan).rms < overlap(original).rms);
+    CHECK(overlap(plan).max < overlap(original).max);
     const auto metrics = [&](const Spheres& s) {
         return measure(s, scene.bounds, scene.gravity, 0.0f);
     };
-    const Metrics plan = metrics(follow(scene, Device::cpu, frames).end);
-    const Metrics original =
-        metrics(test::simulate(scene, settingsFor(scene, Device::cpu), frames));
-    CHECK(plan.meanPenetration < original.meanPenetration);
-    CHECK(plan.largestPenetration < original.largestPenetration);
-    CHECK(plan.lost == 0);
-    CHECK(plan.shadowEnergy < metrics(scene.spheres).shadowEnergy);
+    CHECK(metrics(plan).lost == 0);
+    CHECK(metrics(plan).shadowEnergy < metrics(scene.spheres).shadowEnergy);
 }
 
 TEST_CASE("planning takes less than 1 % of a run", "[plan]") {
