@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "bench/bench.cuh"
+#include "bench/drop.cuh"
 #include "bench/frames.h"
 #include "common/error.h"
 
@@ -25,6 +26,15 @@ int main(int argc, char** argv) {
     app.add_option("--csv", plan.csv, "file to write the table to as well");
     bool frames = false;
     app.add_flag("--frames", frames, "time steps that are drawn as well, offscreen at 1920x1080");
+    bool drop = false;
+    DropPlan fall;
+    app.add_flag(
+        "--drop", drop,
+        "balls dropped into a box under small-steps: ms a step, and how deep they overlap");
+    app.add_option("--substeps", fall.substeps, "with --drop: one line for each")
+        ->check(CLI::Range(1, 1000));
+    app.add_option("--rest", fall.rest, "with --drop: steps after the fall, untimed")
+        ->check(CLI::Range(0, 100000));
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {
@@ -35,7 +45,12 @@ int main(int argc, char** argv) {
     }
     plan.device = device == "cuda" ? Device::cuda : Device::cpu;
     return reportingErrors([&] {
-        if (frames)
+        if (drop) {
+            fall.device = plan.device;
+            if (!plan.counts.empty()) fall.counts = plan.counts;
+            if (app.count("--repeats")) fall.repeats = plan.repeats;
+            runDropBench(fall);
+        } else if (frames)
             runFramesBench({plan.device, plan.counts, plan.repeats, plan.csv});
         else
             runBench(plan);

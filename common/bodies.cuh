@@ -15,7 +15,31 @@ struct BodiesView {
     View<Vec4> velocities;     ///< x, y, z in m/s; w: 1 / mass in 1/kg
     View<float> restitutions;  ///< 0 (dead stop) to 1 (elastic)
     View<std::uint32_t> ids;   ///< the body's number as the user knows it
+    Vec4 period{};             ///< x, y, z in m: edges of a periodic box; 0 between walls
 };
+
+/// In a box with these edges that goes on where it ends, each body has an image one edge further,
+/// on every side. `between` leads from one body in the box to another; what is returned leads to
+/// that one's nearest image.
+template <class Number>
+HD Number toNearestImage(Number between, Number period) {
+    const Number half = Number(0.5) * period;
+    if (between > half) return between - period;
+    return between < -half ? between + period : between;
+}
+HD inline Vec3 toNearestImage(Vec3 between, Vec3 period) {
+    return {toNearestImage(between.x, period.x), toNearestImage(between.y, period.y),
+            toNearestImage(between.z, period.z)};
+}
+
+/// From the centre in slot a to the one in slot b, m. (In a periodic box of chapter 11: to the
+/// nearest image of b.)
+HD inline Vec3 betweenCentres(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
+    const Vec3 between = xyz(bodies.positions[b]) - xyz(bodies.positions[a]);
+    if (bodies.period.x > 0.0f) [[unlikely]]
+        return toNearestImage(between, xyz(bodies.period));
+    return between;
+}
 
 /// What a step must tell the host. Lives on the device; zero (noBody for the ids) at step start.
 struct StepStatus {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/bodies.cuh"
+
 namespace ballpit {
 
 namespace {
@@ -20,17 +22,36 @@ struct CellEntry {
     }
 };
 
-bool touch(const Spheres& spheres, std::uint32_t a, std::uint32_t b) {
+bool touch(const Spheres& spheres, std::uint32_t a, std::uint32_t b, Vec3 period) {
     const Vec3 p = spheres.positions[a], q = spheres.positions[b];
-    const float dx = q.x - p.x, dy = q.y - p.y, dz = q.z - p.z;
     const float reach = spheres.radii[a] + spheres.radii[b];
-    return dx * dx + dy * dy + dz * dz < reach * reach;
+    const Vec3 between = period.x > 0.0f ? toNearestImage(q - p, period) : q - p;
+    return lengthSquared(between) < reach * reach;
 }
 
-std::vector<CellEntry> sortedCells(const Spheres& spheres) {
+double cellSizeFor(const Spheres& spheres) {
     float largest = 1e-6f;
     for (const float radius : spheres.radii) largest = std::max(largest, radius);
-    const double cellSize = 2.0 * largest * (1.0 + 1e-6);
+    return 2.0 * largest * (1.0 + 1e-6);
+}
+
+/// Calls visit(place) for p and its images in and just around the box.
+template <class Visit>
+void visitImages(Vec3 p, const Bounds& box, double margin, Visit visit) {
+    const auto images = [&](float Vec3::*axis) {
+        const float lower = box.lower.*axis, upper = box.upper.*axis, edge = upper - lower;
+        std::vector<float> places;
+        for (const float place : {p.*axis - edge, p.*axis, p.*axis + edge})
+            if (place >= lower - margin && place <= upper + margin) places.push_back(place);
+        return places;
+    };
+    for (const float x : images(&Vec3::x))
+        for (const float y : images(&Vec3::y))
+            for (const float z : images(&Vec3::z)) visit(Vec3{x, y, z});
+}
+
+std::vector<CellEntry> sortedCells(const Spheres& spheres, const std::optional<Bounds>& periodic) {
+    const double cellSize = cellSizeFor(spheres);
     // Clamped: what is 2^40 cells away has no neighbours that matter, and its number must fit.
     constexpr double farthest = 0x1p40;
     const auto along = [&](float c) {
@@ -38,8 +59,11 @@ std::vector<CellEntry> sortedCells(const Spheres& spheres) {
     };
     std::vector<CellEntry> cells;
     for (std::uint32_t k = 0; k < spheres.count(); ++k) {
-        const Vec3 p = spheres.positions[k];
-        if (isFinite(p)) cells.push_back({along(p.x), along(p.y), along(p.z), k});
+        const Vec3 position = spheres.positions[k];
+        const auto add = [&](Vec3 p) {
+            if (isFinite(p)) cells.push_back({along(p.x), along(p.y), along(p.z), k});
+        };
+        periodic ? visitImages(position, *periodic, cellSize, add) : add(position);
     }
     std::sort(cells.begin(), cells.end());
     return cells;
@@ -47,8 +71,9 @@ std::vector<CellEntry> sortedCells(const Spheres& spheres) {
 
 }  // namespace
 
-std::vector<Pair> findPairsOnHost(const Spheres& spheres) {
-    const std::vector<CellEntry> cells = sortedCells(spheres);
+std::vector<Pair> findPairsOnHost(const Spheres& spheres, const std::optional<Bounds>& periodic) {
+    const std::vector<CellEntry> cells = sortedCells(spheres, periodic);
+    const Vec3 period = periodic ? extent(*periodic) : Vec3{};
     std::vector<Pair> pairs;
     for (const CellEntry& cell : cells) {
         for (int dz = -1; dz <= 1; ++dz) {
@@ -57,12 +82,14 @@ std::vector<Pair> findPairsOnHost(const Spheres& spheres) {
                 const CellEntry last{cell.x + 1, cell.y + dy, cell.z + dz, 0};
                 auto other = std::lower_bound(cells.begin(), cells.end(), first);
                 for (; other != cells.end() && !(last < *other); ++other)
-                    if (cell.body < other->body && touch(spheres, cell.body, other->body))
+                    if (cell.body < other->body && touch(spheres, cell.body, other->body, period))
                         pairs.push_back({cell.body, other->body});
             }
         }
     }
     std::sort(pairs.begin(), pairs.end());
+    // Near a face a pair meets there and again at the image of that place.
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/bodies.cuh"
 #include "common/host_pairs.h"
 
 namespace ballpit {
@@ -29,8 +30,12 @@ double wallPenetration(Vec3d p, double radius, Bounds walls) {
                               upper.y - p.y, upper.z - p.z});
 }
 
-void addBody(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, Vec3d gravity,
-             double dt) {
+bool isFiniteBody(const Spheres& spheres, std::size_t k) {
+    return isFinite(spheres.positions[k]) && isFinite(spheres.velocities[k]);
+}
+
+void addEnergies(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, Vec3d gravity,
+                 double dt) {
     const Vec3d position = widen(spheres.positions[k]), velocity = widen(spheres.velocities[k]);
     const double mass = spheres.masses[k];
     const double kinetic = 0.5 * mass * dot(velocity, velocity);
@@ -38,38 +43,63 @@ void addBody(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, V
     m.kineticEnergy += kinetic;
     m.potentialEnergy += potential;
     m.shadowEnergy += kinetic + potential + 0.5 * mass * dt * dot(gravity, velocity);
+}
+
+void addBody(Metrics& m, const Spheres& spheres, std::size_t k, Bounds bounds, Vec3d gravity,
+             double dt, bool walled) {
+    addEnergies(m, spheres, k, bounds, gravity, dt);
+    const Vec3d position = widen(spheres.positions[k]), velocity = widen(spheres.velocities[k]);
+    const double mass = spheres.masses[k];
     addScaled(m.momentum, mass, velocity);
     addScaled(m.angularMomentum, mass, cross(position, velocity));
     if (!contains(bounds, spheres.positions[k])) ++m.lost;
-    m.largestPenetration =
-        std::max(m.largestPenetration, wallPenetration(position, spheres.radii[k], bounds));
+    if (walled)
+        m.largestPenetration =
+            std::max(m.largestPenetration, wallPenetration(position, spheres.radii[k], bounds));
 }
 
 }  // namespace
 
 double length(Vec3d v) { return std::sqrt(dot(v, v)); }
 
-Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt) {
+double penetrationOf(const Spheres& spheres, Pair pair, const std::optional<Bounds>& periodic) {
+    Vec3d offset =
+        minus(widen(spheres.positions[pair.second]), widen(spheres.positions[pair.first]));
+    if (periodic) {
+        const Vec3d period = minus(widen(periodic->upper), widen(periodic->lower));
+        offset = {toNearestImage(offset.x, period.x), toNearestImage(offset.y, period.y),
+                  toNearestImage(offset.z, period.z)};
+    }
+    const double reach = double(spheres.radii[pair.first]) + spheres.radii[pair.second];
+    return std::max(0.0, reach - length(offset));
+}
+
+Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt, bool periodic) {
+    const std::optional<Bounds> box = periodic ? std::optional(bounds) : std::nullopt;
     Metrics m;
     for (std::size_t k = 0; k < spheres.count(); ++k) {
-        if (isFinite(spheres.positions[k]) && isFinite(spheres.velocities[k]))
-            addBody(m, spheres, k, bounds, widen(gravity), dt);
+        if (isFiniteBody(spheres, k))
+            addBody(m, spheres, k, bounds, widen(gravity), dt, !periodic);
         else
             ++m.notFinite;
     }
-    const std::vector<Pair> pairs = findPairsOnHost(spheres);
+    const std::vector<Pair> pairs = findPairsOnHost(spheres, box);
     double sum = 0.0;
     for (const Pair pair : pairs) {
-        const Vec3d offset =
-            minus(widen(spheres.positions[pair.second]), widen(spheres.positions[pair.first]));
-        const double reach = double(spheres.radii[pair.first]) + spheres.radii[pair.second];
-        const double penetration = std::max(0.0, reach - length(offset));
+        const double penetration = penetrationOf(spheres, pair, box);
         sum += penetration;
         m.largestPenetration = std::max(m.largestPenetration, penetration);
     }
     m.contacts = pairs.size();
     m.meanPenetration = pairs.empty() ? 0.0 : sum / static_cast<double>(pairs.size());
     return m;
+}
+
+double shadowEnergyOf(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt) {
+    Metrics m;
+    for (std::size_t k = 0; k < spheres.count(); ++k)
+        if (isFiniteBody(spheres, k)) addEnergies(m, spheres, k, bounds, widen(gravity), dt);
+    return m.shadowEnergy;
 }
 
 namespace {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "common/pair_list.cuh"
 #include "common/spheres.h"
 
 namespace ballpit {
@@ -31,8 +33,17 @@ struct Metrics {
 
 /// Everything about a state in a world with gravity `gravity` (m/s^2), stepped by `dt` (s).
 /// The shadow energy of semi-implicit Euler is sum of m (v^2/2 - g.x + dt g.v / 2).
-/// Bodies that are not finite are counted and left out of the sums.
-Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt);
+/// Bodies that are not finite are counted and left out of the sums. A world that is `periodic` has
+/// no walls to stick in, and balls touch the nearest images of each other.
+Metrics measure(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt,
+                bool periodic = false);
+
+/// m: how deep the balls of a touching pair stick in each other; in a periodic box, the nearest
+/// images of them.
+double penetrationOf(const Spheres& spheres, Pair pair, const std::optional<Bounds>& periodic);
+
+/// J: the shadow energy alone, without the search for contacts.
+double shadowEnergyOf(const Spheres& spheres, Bounds bounds, Vec3 gravity, float dt);
 
 /// 64 bits over the positions and velocities in body order: equal states, and hardly any others,
 /// have equal hashes.

@@ -61,16 +61,44 @@ void addResponseOptions(CLI::App& app, Options& o) {
                    "(default: 0.2) takes away");
 }
 
+/// What a plan chooses; who gives one of these wants no plan.
+constexpr const char* plannedOptions[] = {"--response",    "--iterations",
+                                          "--substeps",    "--relaxation",
+                                          "--cell-size",   "--restitution-threshold",
+                                          "--broad-phase", "--position-share"};
+
+void addPlanOptions(CLI::App& app, Options& o) {
+    app.add_option("--plan", o.plan,
+                   "auto: the scene's facts choose response, substeps, broad phase, cells and "
+                   "steps a frame (default); original: the original design's loop, two rounds of "
+                   "mass-split. Any of --response, --iterations, --substeps, --relaxation, "
+                   "--restitution-threshold, --position-share, --cell-size and --broad-phase "
+                   "switches the plan off")
+        ->check(CLI::IsMember({"auto", "original"}));
+    app.add_option("--tolerance", o.tolerance,
+                   "error that a plan may leave, as a share of a radius or of the energy "
+                   "(default: the scene's own, or 0.02)");
+    app.add_option_function<std::string>(
+           "--broad-phase", [&o](const std::string& name) { o.allPairs = name == "naive"; },
+           "grid (default), or naive: all balls with all")
+        ->check(CLI::IsMember({"grid", "naive"}));
+}
+
 void addSimulationOptions(CLI::App& app, Options& o) {
     app.add_option("--scene", o.scene, sceneNames())->capture_default_str();
     app.add_option("--frames", o.frames, "steps to simulate, one video frame each")
         ->capture_default_str();
+    addPlanOptions(app, o);
     addResponseOptions(app, o);
-    app.add_option("--dt", o.dt, "time step in s (default: 1/60)");
+    app.add_option("--dt", o.dt,
+                   "time between frames in s, a step's unless planned (default: 1/60)");
     app.add_option("--gravity", o.gravity, "acceleration along y in m/s^2 (default: the scene's)");
     app.add_option("--damping", o.damping, "share of its velocity a ball loses a second");
     app.add_option("--restitution", o.restitution, "for all balls: 0 dead stop, 1 elastic");
     app.add_option("--cell-size", o.cellSize, "edge of a grid cell in m");
+    app.add_flag("--periodic", o.periodic,
+                 "no walls: what leaves on one side comes in on the other (without gravity; with "
+                 "mass-split, racy, atomic, jacobi, coloured)");
     app.add_option("--spheres", o.spheresFile, "CSV of balls to start from");
     app.add_option("--color", o.color,
                    "what colours tell: body, speed, contacts, cell or memory (their order there)")
@@ -138,10 +166,24 @@ int usualCount(const CLI::App& app, const Options& o) {
     return app.get_option_no_throw("--response") ? sceneKind(o.scene).usualCount : o.count;
 }
 
+/// A plan is made unless something that it chooses was given.
+void completePlan(const CLI::App& app, Options& o) {
+    const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
+    const auto* chosen = std::find_if(std::begin(plannedOptions), std::end(plannedOptions), given);
+    const bool chooses = chosen == std::end(plannedOptions);
+    if (!chooses && given("--plan"))
+        throw InputError("--plan " + o.plan + " and " + *chosen +
+                         ": a plan chooses that itself; leave one of them out");
+    if (chooses && !given("--plan")) o.plan = "auto";
+    if (o.tolerance && !o.planned()) throw InputError("--tolerance: only --plan auto has one");
+    if (o.tolerance && !(*o.tolerance > 0)) throw InputError("--tolerance: must be above 0");
+}
+
 /// What follows from the options that were given, and from those that were not.
 void complete(const CLI::App& app, Options& o) {
     const auto given = [&](const char* name) { return app[name]->count() > 0; };
     if (!given("--count")) o.count = usualCount(app, o);
+    if (app.get_option_no_throw("--plan")) completePlan(app, o);
     if (o.view && !given("--frames")) {
         o.endless = true;
         o.frames = std::numeric_limits<int>::max();
@@ -202,6 +244,7 @@ Scene sceneFor(const Options& o) {
     if (o.gravity) scene.gravity = {0, *o.gravity, 0};
     if (o.damping) scene.damping = *o.damping;
     if (o.cellSize) scene.cellSize = *o.cellSize;
+    scene.periodic |= o.periodic;
     if (o.restitution)
         std::fill(scene.spheres.restitutions.begin(), scene.spheres.restitutions.end(),
                   *o.restitution);

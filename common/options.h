@@ -22,13 +22,19 @@ struct Options {
     std::uint64_t seed = 1;
     int frames = 600;
     std::string response = "mass-split";
-    ResponseKnobs knobs;  ///< of the response
+    ResponseKnobs knobs;              ///< of the response
+    bool allPairs = false;            ///< compare all balls with all, without a grid
+    std::string plan;                 ///< auto, original, or empty: settings were given
+    std::optional<double> tolerance;  ///< of the plan
+    /// The scene's facts choose the response and its settings.
+    bool planned() const { return plan == "auto"; }
     std::optional<float> dt, gravity, damping, restitution, cellSize;
-    std::string out;       ///< video to write; empty: none
-    std::string png;       ///< picture of the last frame; empty: none
-    std::string stills;    ///< folder for the first and the last frame; empty: none
-    int compression = 20;  ///< of the video, 0 exact to 51 coarse
-    Shot shot;             ///< where the camera stands, how it moves
+    bool periodic = false;  ///< without walls
+    std::string out;        ///< video to write; empty: none
+    std::string png;        ///< picture of the last frame; empty: none
+    std::string stills;     ///< folder for the first and the last frame; empty: none
+    int compression = 20;   ///< of the video, 0 exact to 51 coarse
+    Shot shot;              ///< where the camera stands, how it moves
     /// Frames in motion are wanted, more than one picture.
     bool isFilmed() const { return !out.empty() || !stills.empty(); }
     std::string color = "body";       ///< what a ball's colour tells (simulations)

@@ -106,6 +106,7 @@ public:
     BodyField<Vec3> positions, velocities;
     BodyField<float> radii, masses, restitutions;
     std::vector<Vec3> colors;  ///< for pictures only, so they stay on the host
+    Vec3 period;               ///< m: edges of a periodic box; 0 between walls
 
     std::size_t count() const { return count_; }
     Device device() const { return device_; }
@@ -152,7 +153,7 @@ public:
         MovingArrays& moving = moving_[copies.moving];
         FixedArrays& fixed = fixed_[copies.fixed];
         return {moving.positions.view(), moving.velocities.view(), fixed.restitutions.view(),
-                fixed.ids.view()};
+                fixed.ids.view(), withW(period, 0)};
     }
 
     std::size_t bytes() const {

@@ -11,11 +11,12 @@ namespace ballpit {
 struct Scene {
     std::string name;
     Spheres spheres;
-    Bounds bounds;   ///< m
-    float cellSize;  ///< m
-    Vec3 gravity;    ///< m/s^2
-    float damping;   ///< 1/s
-    float dt;        ///< s
+    Bounds bounds;          ///< m
+    float cellSize;         ///< m
+    Vec3 gravity;           ///< m/s^2
+    float damping;          ///< 1/s
+    float dt;               ///< s
+    bool periodic = false;  ///< no walls: what leaves on one side comes in on the other
 };
 
 /// The original design's example: balls of mixed radii (0.3 to 0.9 m), masses (equal density) and

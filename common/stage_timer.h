@@ -2,6 +2,7 @@
 // every stage is also an NVTX range, so that profilers show it by name.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,19 @@ struct StageTime {
     std::string stage;
     double milliseconds;
 };
+
+/// Adds the times of `more` to `sum`, stage by stage.
+inline void addStages(std::vector<StageTime>& sum, const std::vector<StageTime>& more) {
+    for (const StageTime& time : more) {
+        const auto same = std::find_if(sum.begin(), sum.end(), [&](const StageTime& other) {
+            return other.stage == time.stage;
+        });
+        if (same == sum.end())
+            sum.push_back(time);
+        else
+            same->milliseconds += time.milliseconds;
+    }
+}
 
 /// timer.start("sort"); ...work...; timer.start("reorder"); ...work...; timer.stop().
 /// Stages of the same name are added up.

@@ -21,11 +21,14 @@ std::string format(const char* pattern, Values... values) {
 
 void printText(const Summary& s) {
     const Metrics& m = s.metrics;
-    std::printf("%s: %zu balls, %d steps of %.4g ms on %s (%s)\n", s.scene.c_str(), s.balls,
+    std::printf("%s: %zu balls, %d frames of %.4g ms on %s (%s)\n", s.scene.c_str(), s.balls,
                 s.steps, 1e3 * s.dt, name(s.device), describe(s.device).c_str());
     if (s.steps < s.stepsAsked)
-        line("stopped early", format("after %d of %d steps", s.steps, s.stepsAsked));
-    line("time per step", format("%.3f ms", s.millisecondsPerStep));
+        line("stopped early", format("after %d of %d frames", s.steps, s.stepsAsked));
+    line(s.readings ? "plan" : "settings", s.plan);
+    if (s.readings)
+        line("planning", format("%d times, %.2g %% of the time", s.readings, 100 * s.planShare));
+    line("time per frame", format("%.3f ms", s.millisecondsPerStep));
     line("contacts now",
          format("%zu (%zu touching pairs handled in all)", m.contacts, s.collisions));
     line("kinetic energy", format("%.6g J", m.kineticEnergy));
@@ -56,6 +59,9 @@ void printJson(const Summary& s) {
                                       {"steps_asked", s.stepsAsked},
                                       {"dt_s", s.dt},
                                       {"ms_per_step", s.millisecondsPerStep},
+                                      {"plan", s.plan},
+                                      {"plan_readings", s.readings},
+                                      {"plan_share", s.planShare},
                                       {"contacts", m.contacts},
                                       {"collisions", s.collisions},
                                       {"kinetic_energy_J", m.kineticEnergy},

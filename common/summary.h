@@ -17,6 +17,9 @@ struct Summary {
     bool interrupted = false;        ///< by Ctrl-C
     float dt = 0.0f;                 ///< s
     double millisecondsPerStep = 0;  ///< wall time, mean over the run
+    std::string plan;                ///< the response and its settings, in short
+    int readings = 0;                ///< of the scene's facts, by a plan; 0: none was made
+    double planShare = 0;            ///< of the wall time, spent on that
     std::size_t collisions = 0;      ///< touching pairs found, over all steps
     std::size_t overflows = 0;       ///< steps redone because the pair list was full
     std::size_t rebuilds = 0;        ///< steps in which the grid was built twice

@@ -1,6 +1,7 @@
 // The table of scenes.
 #include "stability/catalogue.h"
 
+#include <cstdio>
 #include <iterator>
 
 #include "stability/scenes.h"
@@ -41,54 +42,69 @@ Scene farFromOrigin(int count, std::uint64_t) { return makeFarFromOrigin(count, 
 
 const Entry entries[] = {
     {"two_bodies", 2, 2, 2, twoBodies, "Does a collision turn two balls by the right angle?",
-     "truth/collisions.h: scatteringAngle, impulseAppliedShare", "5 degrees; momentum 1e-6",
+     "truth/collisions.h: scatteringAngle, impulseAppliedShare", 5,
+     "{} degrees, rms; momentum 1e-6",
      "mass ratio, offset b/sigma, travel v dt/r, phase, restitution"},
     {"bounce", 49, 49, 49, bounce, "How much energy do bounces on a floor cost?",
-     "truth/motion.h: bounceLoss", "5 % of that loss", "restitution"},
+     "constant shadow energy (what a step costs: truth/motion.h: bounceLoss)", 0.1,
+     "{} of the energy, rms, in 20 s", "restitution"},
     {"newtons_cradle", 5, 2, 1000, cradle, "Does only the last ball fly off?",
-     "truth/collisions.h: cradleOneByOne", "1e-3 m/s", "count (3, 5, 50), order of the numbers"},
+     "truth/collisions.h: cradleOneByOne", 1e-3, "{} m/s",
+     "count (3, 5, 50), order of the numbers"},
     {"newtons_cradle_reversed", 5, 2, 1000, reversedCradle,
-     "Does the answer depend on how the balls are numbered?", "the same", "1e-3 m/s", "the same"},
+     "Does the answer depend on how the balls are numbered?", "the same", 1e-3, "{} m/s",
+     "the same"},
     {"pocket", 4, 4, 4, pocket, "Does a ball that meets three at once gain energy?",
-     "truth/collisions.h: hubAndSpokesEnergy", "energy 1e-3", "restitution"},
+     "truth/collisions.h: hubAndSpokesEnergy", 1e-3, "{} of energy and momentum", "restitution"},
     {"hub", 4, 2, 13, hub, "How many contacts at once can a ball take?",
-     "truth/collisions.h: hubAndSpokesEnergy", "energy 1e-3",
+     "truth/collisions.h: hubAndSpokesEnergy", 1e-3, "{} of energy and momentum",
      "spokes, mass ratio, cosine, restitution"},
     {"elastic_gas", 343, 2, million, elasticGas, "Does an elastic gas keep its energy?",
-     "truth/kinetic_theory.h: enskogRate, Maxwell and Boltzmann", "10 % in 100 collisions a ball",
+     "truth/kinetic_theory.h: enskogRate, Maxwell and Boltzmann", 0.1,
+     "{} of the energy, rms, in 100 collisions a ball",
      "count, volume share (0.05 to 0.49), travel, seed"},
     {"cooling_gas", 343, 2, million, coolingGas, "Does a dull gas cool as Haff's law says?",
-     "truth/kinetic_theory.h: haffCooling", "10 % at Haff's time",
+     "truth/kinetic_theory.h: haffCooling", 0.1, "{} of the energy at Haff's time",
      "count, volume share, travel, restitution, seed"},
     {"six_cubed", 216, 216, 216, sixCubed, "How deep do balls of a settled heap overlap?",
-     "SimBenchmark's 666: no overlap", "rms 0.02 r", "restitution 0, seed"},
+     "SimBenchmark's 666: no overlap", 0.02, "rms {} r", "restitution 0, seed"},
     {"six_cubed_elastic", 216, 216, 216, sixCubedElastic, "Does a bouncing heap keep its energy?",
-     "SimBenchmark's elastic 666: constant shadow energy", "10 % in 10 s", "restitution 1, seed"},
+     "SimBenchmark's elastic 666: constant shadow energy", 0.1, "{} of the energy, rms, in 10 s",
+     "restitution 1, seed"},
     {"column", 10, 1, 1000, column, "How tall a column stands without being squashed?",
-     "truth/columns.h: columnOverlap, columnOverlapFloorOnce", "0.1 r", "count, restitution"},
+     "truth/columns.h: columnOverlap, columnOverlapFloorOnce", 0.1, "{} r", "count, restitution"},
     {"heavy_on_light", 2, 2, 2, heavyOnLight, "How heavy a ball can a light one carry?",
-     "truth/columns.h: heavyOnLightRate", "0.1 r", "mass ratio, restitution"},
+     "truth/columns.h: heavyOnLightRate", 0.1, "{} r", "mass ratio, restitution"},
     {"deep_pile", 1000, 8, million, makeDeepPile, "How deep a pile holds itself up?",
-     "truth/columns.h: no random heap is denser than 0.66", "rms 0.05 r",
+     "truth/columns.h: no random heap is denser than 0.66", 0.05, "rms {} r",
      "count (1 k to 1 M), seed"},
     {"mixed_radii", 500, 8, million, mixedRadii, "Do small balls stay outside of large ones?",
-     "truth/columns.h: mostPairsOfAnyBalls", "0.1 of the mean radius",
+     "truth/columns.h: mostPairsOfAnyBalls", 0.1, "rms {} of the mean radius",
      "count, largest over smallest radius, seed"},
     {"bullet", 126, 2, million, bullet, "Is a fast ball stopped by what it hits?",
-     "truth/collisions.h: impulseAppliedShare", "every ball in the way is hit", "side, travel"},
+     "truth/collisions.h: impulseAppliedShare", 0.1, "{} of the momentum to be handed on, rms",
+     "side, travel"},
     {"one_cell", 500, 2, 20000, makeOneCell, "What if all balls lie in one cell?",
-     "no ball lost, no pair dropped", "exact", "count, seed"},
+     "no ball lost, no pair dropped", 0, "exact", "count, seed"},
     {"coincident", 64, 2, 1024, coincident, "What if two balls have the same centre?",
-     "no ball lost, none not finite", "exact", "count"},
+     "no ball lost, none not finite", 0, "exact", "count"},
     {"not_finite", 2, 2, 2, notFinite, "What if an impulse is too large for a float?",
-     "an error that names the ball; the state before it is kept", "exact", ""},
+     "an error that names the ball; the state before it is kept", 0, "exact", ""},
     {"outside", 60, 1, million, makeOutside, "What if balls start outside the walls?",
-     "all are back inside after one step", "exact", "count, seed"},
+     "all are back inside after one step", 0, "exact", "count, seed"},
     {"far_from_origin", 3, 1, 1000, farFromOrigin, "What do floats lose 10 km from the origin?",
-     "the same column at the origin", "0.1 r", "count, distance"}};
+     "the same column at the origin", 0.1, "{} r", "count, distance"}};
 
 }  // namespace
 
 std::span<const Entry> catalogue() { return entries; }
+
+std::string toleranceText(const Entry& entry) {
+    std::string text = entry.tolerance;
+    char number[32];
+    std::snprintf(number, sizeof number, "%g", entry.within);
+    const std::size_t place = text.find("{}");
+    return place == std::string::npos ? text : text.replace(place, 2, number);
+}
 
 }  // namespace ballpit::stability

@@ -12,13 +12,6 @@ namespace ballpit::stability {
 constexpr double restTolerance = 0.1;
 constexpr double frames = 60;  ///< steps a second
 
-/// Does a ball lie lower than the one below it was? Bodies are numbered from the floor.
-inline bool hasFallenThrough(const Spheres& s) {
-    for (std::size_t k = 1; k < s.count(); ++k)
-        if (s.positions[k].y <= s.positions[k - 1].y) return true;
-    return false;
-}
-
 /// The deepest overlap in the last second of `seconds`, in radii. Gravity's energy at the start is
 /// all there is: a ball that rises higher than it can has got it from nowhere.
 inline Outcome restingCell(const Scene& scene, ResponseMethod method, int passes, double seconds,

@@ -32,10 +32,12 @@ Scene makeGasOf(const Gas& k) {
     const auto side = static_cast<float>(std::cbrt(k.count * ballVolume / k.volumeShare));
     Scene scene = emptyWorld(k.restitution < 1.0f ? "cooling_gas" : "elastic_gas",
                              {{0, 0, 0}, {side, side, side}});
+    scene.periodic = k.periodic;
     scene.dt = k.travel * ballRadius / gasSpeed;
     const int along = static_cast<int>(std::ceil(std::cbrt(double(k.count)) - 1e-9));
     // Centres half a spacing from the walls, if that leaves a radius and a hair.
-    const float first = std::fmax(0.5f * side / static_cast<float>(along), 1.001f * ballRadius);
+    const float half = 0.5f * side / static_cast<float>(along);
+    const float first = k.periodic ? half : std::fmax(half, 1.001f * ballRadius);
     const float spacing = along > 1 ? (side - 2.0f * first) / static_cast<float>(along - 1) : 0.0f;
     Random random(k.seed);
     for (int n = 0; n < k.count; ++n) {

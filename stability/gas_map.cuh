@@ -1,37 +1,15 @@
 // Map "gas": does a gas keep its energy, or cool as it should? Volume share against step.
 #pragma once
 
-#include "stability/scenes.h"
+#include <numbers>
+
+#include "stability/gas_truth.h"
 #include "stability/trial.cuh"
-#include "truth/event_driven.h"
 #include "truth/kinetic_theory.h"
 
 namespace ballpit::stability {
 
 constexpr double gasTolerance = 0.1;
-
-/// How long a gas is watched: so many collisions a ball if it is elastic; if not, Haff's time, in
-/// which it should lose three quarters of its energy. By Enskog's rate.
-inline double gasSeconds(const Gas& gas, double collisions) {
-    const double rate =
-        truth::enskogRate(gas.volumeShare * 6 / std::numbers::pi, 2 * ballRadius, 1, 1);
-    return gas.restitution < 1 ? truth::haffTime(gas.restitution, rate) : collisions / rate;
-}
-
-/// J, after `seconds`: the event-driven simulator, from the same start in the same box.
-inline double trueEnergy(const Scene& scene, double seconds) {
-    truth::Balls balls;
-    const Spheres& s = scene.spheres;
-    for (std::size_t k = 0; k < s.count(); ++k) {
-        const Vec3 p = s.positions[k], v = s.velocities[k];
-        balls.push_back(
-            {{p.x, p.y, p.z}, {v.x, v.y, v.z}, s.radii[k], s.masses[k], s.restitutions[k]});
-    }
-    const Vec3 size = scene.bounds.upper;
-    truth::EventDriven simulator(balls, {.box = {{0, 0, 0}, {size.x, size.y, size.z}}});
-    simulator.runUntil(seconds);
-    return truth::kineticEnergy(simulator.balls());
-}
 
 /// The value is E / E_true - 1 at the end. A gas that gains more than half on the way has failed,
 /// whatever comes after.

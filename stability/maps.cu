@@ -52,7 +52,7 @@ int printScenes() {
             balls +=
                 " (" + std::to_string(e.leastCount) + " to " + std::to_string(e.mostCount) + ")";
         std::printf("| `%s` | %s | %s | %s | %s | %s |\n", e.name, balls.c_str(), e.question,
-                    e.truth, e.tolerance, e.knobs);
+                    e.truth, toleranceText(e).c_str(), e.knobs);
     }
     return exitOk;
 }

@@ -54,40 +54,27 @@ double capVolume(double radius, double depth) {
 
 }  // namespace
 
-Overlap overlapOf(const Spheres& all, Bounds walls) {
+Overlap overlapOf(const Spheres& all, Bounds walls, bool periodic) {
     Spheres spheres;
     for (std::size_t k = 0; k < all.count(); ++k)
         if (finite(all, k)) spheres.add(all.positions[k], {}, all.radii[k], 1, 0);
     Overlap overlap;
-    double squares = 0, deepest = 0;
-    const auto add = [&](double depth) {
-        squares += depth * depth;
-        deepest = std::max(deepest, depth);
-    };
-    for (std::size_t k = 0; k < spheres.count(); ++k)
+    std::vector<double> depths;
+    for (std::size_t k = 0; k < spheres.count() && !periodic; ++k)
         visitWalls(spheres, k, walls, [&](double depth) {
             ++overlap.wallContacts;
-            add(depth);
+            depths.push_back(depth);
         });
-    for (const auto [a, b] : findPairsOnHost(spheres)) {
+    const std::optional<Bounds> box = periodic ? std::optional(walls) : std::nullopt;
+    for (const Pair pair : findPairsOnHost(spheres, box)) {
         ++overlap.contacts;
-        const double reach = double(spheres.radii[a]) + spheres.radii[b];
-        add(std::max(0.0, reach - length(between(spheres.positions[a], spheres.positions[b]))));
+        depths.push_back(penetrationOf(spheres, pair, box));
     }
-    if (spheres.count() == 0) return overlap;
-    overlap.rms = std::sqrt(squares / static_cast<double>(spheres.count())) / meanRadius(spheres);
-    overlap.max = deepest / meanRadius(spheres);
+    if (depths.empty()) return overlap;
+    overlap.rms = rmsOverlap(depths, spheres.count(), meanRadius(spheres));
+    overlap.max = *std::max_element(depths.begin(), depths.end()) / meanRadius(spheres);
     return overlap;
 }
-
-void EnergyDrift::add(double energy) {
-    last_ = (energy - reference_) / std::abs(reference_);
-    sum_ += last_;
-    ++count_;
-    largest_ = std::max(largest_, std::abs(last_));
-}
-
-double EnergyDrift::mean() const { return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_); }
 
 double momentumError(const Spheres& before, const Spheres& after) {
     const Metrics start = measure(before, {}, {}, 0), end = measure(after, {}, {}, 0);
@@ -131,6 +118,12 @@ double haffRatio(double temperature, double startTemperature, double time, doubl
     return temperature / startTemperature / truth::haffCooling(time, haffTime);
 }
 
+bool hasFallenThrough(const Spheres& s) {
+    for (std::size_t k = 1; k < s.count(); ++k)
+        if (s.positions[k].y <= s.positions[k - 1].y) return true;
+    return false;
+}
+
 double packingFraction(const Spheres& spheres, Bounds walls, double low, double high) {
     double volume = 0;
     for (std::size_t k = 0; k < spheres.count(); ++k) {
@@ -153,6 +146,16 @@ double velocityNoise(const Spheres& spheres, double g, double dt) {
     double sum = 0;
     for (const Vec3 v : spheres.velocities) sum += squared(v);
     return std::sqrt(sum / static_cast<double>(spheres.count())) / (g * dt);
+}
+
+double floorLoad(const Spheres& before, const Spheres& after, double g, double time) {
+    double mass = 0, gained = 0;
+    for (std::size_t k = 0; k < after.count(); ++k) {
+        const double m = after.masses[k];
+        mass += m;
+        gained += m * (double(after.velocities[k].y) - before.velocities[k].y);
+    }
+    return 1 + gained / (mass * g * time);
 }
 
 double largestDistance(const Spheres& a, const Spheres& b) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "12_speed_and_accuracy/errors.h"
 #include "common/metrics.h"
 
 namespace ballpit::stability {
@@ -18,22 +19,8 @@ struct Overlap {
     std::size_t wallContacts = 0;  ///< of a ball and a wall
 };
 /// SimBenchmark's sum of squares, divided by N. Bodies that are not finite are left out.
-Overlap overlapOf(const Spheres& spheres, Bounds walls);
-
-/// How an energy (J) drifts from its reference: for a world with gravity the shadow energy
-/// (common/metrics.h), which a step in flight leaves exactly as it is.
-class EnergyDrift {
-public:
-    explicit EnergyDrift(double reference) : reference_(reference) {}
-    void add(double energy);
-    double last() const { return last_; }        ///< (E - E0) / |E0|
-    double mean() const;                         ///< signed: of all that was added
-    double largest() const { return largest_; }  ///< of |E - E0| / |E0|
-
-private:
-    double reference_, sum_ = 0, last_ = 0, largest_ = 0;
-    std::size_t count_ = 0;
-};
+/// A world that is `periodic` has no walls.
+Overlap overlapOf(const Spheres& spheres, Bounds walls, bool periodic = false);
 
 /// |p - p0| / sqrt(2 E0 M), with p the momentum, E0 the kinetic energy at the start, M the mass of
 /// all: 1 is as much momentum as the balls have if they all fly the same way.
@@ -71,6 +58,9 @@ double haffRatio(double temperature, double startTemperature, double time, doubl
 
 // Heaps.
 
+/// Does a ball of a column lie lower than the one below it was? Bodies are numbered from the floor.
+bool hasFallenThrough(const Spheres& spheres);
+
 /// The share of the slab between the heights `low` and `high`, wall to wall, that is ball.
 double packingFraction(const Spheres& spheres, Bounds walls, double low, double high);
 
@@ -80,6 +70,10 @@ double coordination(const Spheres& spheres, double slack);
 /// sqrt(<v^2>) / (g dt), g in m/s^2, dt in s: at rest, what gravity adds to a velocity in a step is
 /// the least that a scheme has to deal with.
 double velocityNoise(const Spheres& spheres, double g, double dt);
+
+/// What the floor (and the ceiling) gave in `time` s, over the weight of all: by the momentum that
+/// gravity would have given and did not. 1 for all that stands; it says nothing about how.
+double floorLoad(const Spheres& before, const Spheres& after, double g, double time);
 
 // Runs.
 

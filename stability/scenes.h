@@ -23,6 +23,10 @@ struct TwoBodies {
 };
 Scene makeTwoBodies(const TwoBodies& knobs);
 
+/// `pairs` such meetings (equal masses, elastic, 0.1 radii a step) in lanes of their own: offsets
+/// as often as a random aim has them, phases at random. Bodies 2k and 2k + 1 meet.
+Scene makeMeetings(int pairs, std::uint64_t seed);
+
 /// SimBenchmark's bouncing balls: 7 x 7 balls of 0.1 m and 10 kg fall 5 m, none above another.
 Scene makeBounce(float restitution);
 
@@ -44,14 +48,15 @@ struct Hub {
 };
 Scene makeHub(const Hub& knobs);
 
-/// A gas between walls, on a lattice at first: random velocities with no sum and with the root mean
-/// square `speed`.
+/// A gas between walls, or in a periodic box; on a lattice at first. Random velocities with no sum
+/// and with the root mean square `speed`.
 struct Gas {
     int count = 343;
     float volumeShare = 0.3f;  ///< of the box that is ball, below 0.5
     float travel = 0.1f;       ///< rms speed times dt / r
     float restitution = 1.0f;
     std::uint64_t seed = 1;
+    bool periodic = false;
 };
 constexpr float gasSpeed = 1.7320508f;  ///< m/s, rms: a temperature of 1 J
 Scene makeGasOf(const Gas& knobs);
@@ -76,6 +81,10 @@ Scene makeMixedRadii(int count, float ratio, std::uint64_t seed);
 /// One ball of 2 kg shot with `travel` radii a step at a lattice of balls at rest, `side` along
 /// each edge.
 Scene makeBullet(int side, float travel);
+
+/// `bullets` such shots at lattices of 3 x 3 x 3 balls, in lanes of their own, at random phases of
+/// the step and up to 0.3 radii off their line. A bullet comes before its lattice in the order.
+Scene makeVolley(int bullets, float travel, std::uint64_t seed);
 
 // Pathologies: what no scene should ask for, and every engine is asked for some day.
 

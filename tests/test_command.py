@@ -55,6 +55,32 @@ class Folder(unittest.TestCase):
         return result.returncode == 0
 
 
+class Plans(Folder):
+    def summary(self, *arguments):
+        result = self.run_program("--json", "--device", "cpu", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def test_the_original_loop_keeps_its_hash(self):
+        found = self.summary("--plan", "original")
+        self.assertEqual(found["state_hash"], "9477c493691706c7")
+        self.assertEqual(found["plan"], "mass-split, 2 passes, cells of 2 m")
+        self.assertEqual(found["plan_readings"], 0)
+
+    def test_a_plan_is_made_unless_settings_were_given(self):
+        planned = self.summary("--frames", "130")
+        self.assertIn("small-steps", planned["plan"])
+        self.assertEqual(planned["plan_readings"], 2)
+        given = self.summary("--frames", "2", "--response", "coloured")
+        self.assertIn("coloured", given["plan"])
+        self.assertEqual(given["plan_readings"], 0)
+
+    def test_all_frames_last_as_long_as_the_scene_says(self):
+        found = self.summary("--scene", "bullet", "--frames", "3")
+        self.assertIn("4 steps a frame", found["plan"])
+        self.assertEqual(found["steps"], 3)
+
+
 class BadOptions(Folder):
     def test_unknown_option_suggests_the_nearest(self):
         self.refuses(["--frmaes", "did you mean --frames?"], "--frmaes", "3")
@@ -100,6 +126,24 @@ class BadOptions(Folder):
     def test_knob_that_the_response_does_not_have(self):
         self.refuses(["substeps 4", "coloured", "small-steps"],
                      "--response", "coloured", "--substeps", "4")
+
+    def test_a_plan_and_what_it_would_choose_exclude_each_other(self):
+        for option, value in [("--response", "coloured"), ("--substeps", "2"),
+                              ("--cell-size", "2"), ("--broad-phase", "naive")]:
+            with self.subTest(option=option):
+                self.refuses(["--plan auto", option, "leave one"], "--plan", "auto", option, value)
+        self.refuses(["--plan"], "--plan", "best")
+        self.refuses(["--tolerance", "only --plan auto"], "--tolerance", "0.1",
+                     "--plan", "original")
+        self.refuses(["--tolerance", "above 0"], "--tolerance", "0")
+
+    def test_a_tolerance_that_nothing_meets_names_the_best(self):
+        self.refuses(["tolerance 1e-05", "best within reach", "pair visits"],
+                     "--scene", "six_cubed_elastic", "--tolerance", "1e-5")
+        plan = os.path.join(os.path.dirname(GRAVITY_FALL), "ballpit_plan")
+        self.refuses(["best within reach"], "six_cubed_elastic", "--tolerance", "1e-5",
+                     program=plan)
+        self.refuses(["scene 'snow'", "known scenes"], "snow", program=plan)
 
     def test_restitution_that_springs_cannot_give(self):
         self.refuses(["restitution 0", "penalty", "small-steps"],

@@ -52,12 +52,12 @@ class Markers(unittest.TestCase):
 
 class Blocks(unittest.TestCase):
     def test_a_summary_shows_neither_time_nor_machine(self):
-        printed = ("gravity_fall: 5 balls, 6 steps of 16.67 ms on cpu (AMD (TM), 2 threads)\n"
-                   "  time per step  0.1 ms\n  state hash     12ab\n")
+        printed = ("gravity_fall: 5 balls, 6 frames of 16.67 ms on cpu (AMD (TM), 2 threads)\n"
+                   "  planning  5 times\n  time per frame  0.1 ms\n  state hash     12ab\n")
         with mock.patch.object(blocks.reference, "run", return_value=printed):
             lines = blocks.summary_block(Chapter(10, "10_full_system"), ["--device", "cpu"])
         self.assertEqual(lines, ["```console", "$ ./ballpit run 10 --device cpu",
-                                 "gravity_fall: 5 balls, 6 steps of 16.67 ms",
+                                 "gravity_fall: 5 balls, 6 frames of 16.67 ms",
                                  "  state hash     12ab", "```"])
 
 

@@ -1,8 +1,10 @@
-"""`./ballpit maps` and its program: bad input, files, an interruption, and how a map is drawn.
+"""`./ballpit maps` and its programs: bad input, files, an interruption, how a map is drawn, and the
+table of all metrics.
 
     python3 tests/test_maps.py BUILD_FOLDER
 """
 
+import csv
 import signal
 import subprocess
 import sys
@@ -17,6 +19,7 @@ import failure_map
 
 BUILD = Path(sys.argv.pop(1)) if len(sys.argv) > 1 else ROOT / "build" / "cpu-release"
 PROGRAM = BUILD / "bin" / "ballpit_maps"
+TABLE = BUILD / "bin" / "ballpit_table"
 
 TINY = '''\
 # map: tiny
@@ -36,8 +39,8 @@ line,"racy, e = 1",500,4,,,"a < b"
 '''
 
 
-def run(*arguments):
-    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120)
+def run(*arguments, program=PROGRAM):
+    return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=120)
 
 
 class Program(unittest.TestCase):
@@ -95,6 +98,82 @@ class Program(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             child = subprocess.Popen([PROGRAM, "gas", "--out", folder], stderr=subprocess.PIPE,
                                      text=True)
+            child.stderr.readline()  # it has begun
+            child.send_signal(signal.SIGINT)
+            child.communicate(timeout=60)
+            self.assertEqual(child.returncode, 130)
+            self.assertEqual(list(Path(folder).iterdir()), [])
+
+
+class Table(unittest.TestCase):
+    def table(self, *arguments):
+        """The lines of the head, and the rows as dictionaries by scene and method."""
+        with tempfile.TemporaryDirectory() as folder:
+            result = run(*arguments, "--out", folder, "--stamp", "a machine\ncommit 1",
+                         program=TABLE)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            path = Path(folder) / "stability_table_cpu"
+            self.assertEqual(result.stdout.split(), [f"{path}.csv", f"{path}.md"])
+            lines = path.with_suffix(".csv").read_text().splitlines()
+            self.markdown = path.with_suffix(".md").read_text()
+        head = [line for line in lines if line.startswith("#")]
+        rows = list(csv.DictReader(lines[len(head):]))
+        return head, {(row["scene"], row["method"]): row for row in rows}
+
+    def test_a_row_has_what_its_scene_can_say_and_nothing_else(self):
+        head, rows = self.table("pocket", "--methods", "coloured", "jacobi", "mass-split")
+        self.assertEqual(head, ["# a machine", "# commit 1"])
+        self.assertEqual(list(rows), [("pocket", "coloured"), ("pocket", "jacobi"),
+                                      ("pocket", "mass-split")])
+        good = rows["pocket", "coloured"]
+        self.assertEqual((good["status"], good["balls"], good["same bits"]), ("ok", "4", "1"))
+        self.assertEqual(good["repeat distance (m)"], "0")
+        self.assertLess(float(good["error"]), 1e-6)
+        self.assertEqual(float(good["within"]), 0.001)
+        self.assertLess(float(good["momentum error"]), 1e-6)
+        self.assertGreater(float(good["TIME: ms / simulated s"]), 0)
+        # Three contacts in one round, none in the second, in the only step of half a second.
+        self.assertEqual(float(good["pair visits / simulated s"]), 6)
+        for empty in ("T / Haff", "Maxwell distance", "packing", "floor load / weight"):
+            self.assertEqual(good[empty], "")
+        # Three times the energy: stopped there, and no time for what is wrong.
+        bad = rows["pocket", "jacobi"]
+        self.assertEqual((bad["status"], bad["TIME: ms / simulated s"]), ("energy", ""))
+        self.assertAlmostEqual(float(bad["energy drift largest"]), 2, delta=0.01)
+        self.assertLess(float(bad["simulated s"]), float(good["simulated s"]))
+        self.assertEqual(rows["pocket", "mass-split"]["status"], "inaccurate")
+
+    def test_what_stands_carries_its_weight_and_what_is_no_number_has_no_measures(self):
+        _, rows = self.table("heavy_on_light", "not_finite", "--methods", "warm")
+        standing = rows["heavy_on_light", "warm"]
+        self.assertAlmostEqual(float(standing["floor load / weight"]), 1, delta=1e-3)
+        self.assertLess(float(standing["velocity noise / (g dt)"]), 0.01)
+        broken = rows["not_finite", "warm"]
+        self.assertEqual(broken["status"], "not finite")
+        for empty in ("error", "penetration rms / r", "same bits", "TIME: ms / simulated s"):
+            self.assertEqual(broken[empty], "")
+
+    def test_the_markdown_has_the_same_cells(self):
+        _, rows = self.table("heavy_on_light", "--methods", "coloured")
+        cells = [cell.strip() for cell in self.markdown.splitlines()[-1].strip("|").split("|")]
+        self.assertEqual(cells, list(rows["heavy_on_light", "coloured"].values()))
+        self.assertTrue(self.markdown.startswith("a machine\n\ncommit 1\n\n| scene | method |"))
+
+    def test_unknown_scenes_methods_and_folders_are_refused(self):
+        for word, arguments in (("error: scene 'gas': scenes with a row in the table are two_bodies",
+                                 ["gas"]),
+                                ("error: response 'jakobi': known", ["--methods", "jakobi"]),
+                                ("--out /no/such/folder: is not a folder",
+                                 ["pocket", "--out", "/no/such/folder"])):
+            result = run(*arguments, program=TABLE)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+            self.assertIn(word, result.stderr)
+
+    def test_an_interrupted_table_leaves_no_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            child = subprocess.Popen([TABLE, "elastic_gas", "--out", folder],
+                                     stderr=subprocess.PIPE, text=True)
             child.stderr.readline()  # it has begun
             child.send_signal(signal.SIGINT)
             child.communicate(timeout=60)

@@ -56,6 +56,17 @@ class Reading(unittest.TestCase):
             self.assertEqual(cells(Row(["rows"], "countAround", template=template)),
                              ["rows", number, f"{number} %"])
 
+    def test_the_body_of_a_colour_is_found_within_the_kernel_that_runs_it(self):
+        name = f"{THREADS}12pairOfColourIXadL_ZNS_9pushApartEjNS_13SmallStepViewEbEEJS2_bEEEvi"
+        found = [{"Kernel Name": name, "Grid Size": "(1954, 1, 1)", BUS: number}
+                 for number in ("40", "7")]
+        self.assertIs(profile_chapters.launch_of(Row([], "pushApart", 0), found), found[0])
+
+    def test_a_chapter_may_profile_a_program_that_is_no_reference(self):
+        profile = profile_chapters.PROFILES["11"][0]
+        self.assertTrue(any(part.endswith("/bin/gravity_fall")
+                            for part in profile_chapters.command(profile)))
+
     def test_a_function_that_was_never_launched_is_named(self):
         with self.assertRaisesRegex(ValueError, "no launch of linkAndCount"):
             cells(kernel("linkAndCount"))

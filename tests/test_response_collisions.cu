@@ -1,5 +1,6 @@
 // Every response against the closed forms of two balls: head-on, oblique, and thousands of bounces.
 #include "tests/response_scenes.h"
+#include "truth/penalty.h"
 
 using namespace ballpit;
 
@@ -22,12 +23,14 @@ struct Meeting {
     }
 };
 
-/// The largest error of a velocity along the line of a head-on collision, relative to the speed.
-double headOnError(const Meeting& meeting, Device device, ResponseMethod method) {
+/// The largest error of a velocity along the line of a head-on collision, relative to the speed, if
+/// the balls ought to part with `restitution` times their speed.
+double headOnError(const Meeting& meeting, Device device, ResponseMethod method,
+                   double restitution) {
     const Scene scene = meeting.scene();
     const Spheres end = test::simulate(scene, test::settingsFor(scene, device, method), 6);
     const double speed = meeting.speed;
-    const double impulse = (1.0 + meeting.restitution) * speed / (1.0 + 1.0 / meeting.massB);
+    const double impulse = (1.0 + restitution) * speed / (1.0 + 1.0 / meeting.massB);
     const double a = meeting.shareOfA * speed - impulse;
     const double b = (meeting.shareOfA - 1.0) * speed + impulse / meeting.massB;
     return std::max(std::abs(end.velocities[0].x - a), std::abs(end.velocities[1].x - b)) / speed;
@@ -43,18 +46,29 @@ TEST_CASE("a head-on collision is exact with every response but springs", "[stab
     const float speed = GENERATE(0.1f, 1.0f, 10.0f), phase = GENERATE(0.1f, 0.5f, 0.9f);
     const float massB = GENERATE(1.0f, 3.0f);
     CAPTURE(device, method, restitution, speed, phase, massB);
-    CHECK(headOnError({.speed = speed, .massB = massB, .restitution = restitution, .phase = phase},
-                      device, method) < 1e-5);
+    const Meeting meeting{
+        .speed = speed, .massB = massB, .restitution = restitution, .phase = phase};
+    CHECK(headOnError(meeting, device, method, double(restitution)) < 1e-5);
 }
 
-TEST_CASE("with springs a head-on collision is right to 3 %, elastic to 0.1 %", "[stability]") {
+// The boundary of springs: e is met to 3 %, since a contact begins and ends within a substep. That
+// error is the scheme's alone. What else there is comes from places, which are rounded to 6e-8 m
+// and press in by v t_c / pi = 0.7 mm at 0.1 m/s.
+TEST_CASE(
+    "with springs a head-on collision is right to 3 %, elastic to 0.1 %, and that is all the "
+    "scheme's own doing",
+    "[stability]") {
     const Device device = GENERATE(from_range(test::devices()));
     const float restitution = GENERATE(0.3f, 0.5f, 0.8f, 0.95f, 1.0f);
-    const float speed = GENERATE(0.1f, 1.0f, 10.0f), phase = GENERATE(0.1f, 0.5f, 0.9f);
+    const float speed = GENERATE(0.1f, 1.0f, 10.0f), phase = GENERATE(0.11f, 0.53f, 0.92f);
     CAPTURE(device, restitution, speed, phase);
-    const double error = headOnError({.speed = speed, .restitution = restitution, .phase = phase},
-                                     device, ResponseMethod::penalty);
+    const Meeting meeting{.speed = speed, .restitution = restitution, .phase = phase};
+    const double error = headOnError(meeting, device, ResponseMethod::penalty, restitution);
     CHECK(error < (restitution == 1.0f ? 1e-3 : 0.03));
+    const double substeps = 16 * double(phase), share = substeps - std::floor(substeps);
+    const double stepped = truth::steppedRestitution(double(restitution), 20, share);
+    CHECK(headOnError(meeting, device, ResponseMethod::penalty, stepped) <
+          1e-5 + 3e-5 / double(speed));
 }
 
 TEST_CASE("the finer a spring's time is cut, the nearer it comes to its restitution",
@@ -110,10 +124,38 @@ TEST_CASE("4000 elastic bounces between two balls and two walls gain no energy",
         if ((velocity > 0.0f) != (before > 0.0f)) ++bounces;
         before = velocity;
     }
-    // Some lose so much that they become slow.
-    CHECK(bounces > 900);
+    // `warm` loses wherever a ball meets the other and the wall in one step, and becomes slow.
+    CHECK(bounces >= (method == ResponseMethod::warm ? 900 : 4000));
     // A spring's integrator swings by a per cent or two and comes back.
     CHECK(largest < (method == ResponseMethod::penalty ? 1.03 : 1.00001));
+}
+
+TEST_CASE("4000 elastic bounces keep the energy where none shares a step with another",
+          "[stability]") {
+    const ResponseMethod method = GENERATE(from_range(test::exactMethods()));
+    CAPTURE(method);
+    Scene scene = test::emptyWorld();
+    scene.bounds = {{-1.5f, -2, -2}, {1.5f, 2, 2}};
+    // A mirror between the balls: they meet each other, then both a wall, and so on.
+    scene.spheres.add({-0.75f, 0, 0}, {3, 0, 0}, 0.5f, 1.0f, 1.0f);
+    scene.spheres.add({0.75f, 0, 0}, {-3, 0, 0}, 0.5f, 1.0f, 1.0f);
+    PhysicsSimulator simulator(test::settingsFor(scene, Device::cpu, method));
+    simulator.bodies().upload(scene.spheres);
+    int bounces = 0;
+    float speed = 3.0f, fastest = 3.0f;
+    bool wentRight = true;
+    for (int step = 0; bounces < 4000 && step < 60000; ++step) {
+        simulator.step();
+        const float velocity = simulator.bodies().velocities.download()[0].x;
+        bounces += (velocity > 0.0f) != wentRight;
+        wentRight = velocity > 0.0f;
+        speed = std::abs(velocity);
+        fastest = std::max(fastest, speed);
+    }
+    CHECK(bounces == 4000);
+    const bool springs = method == ResponseMethod::penalty;
+    CHECK(fastest < 3.0f * (springs ? 1.05f : 1.0001f));
+    if (!springs) CHECK(speed == Approx(3.0f).epsilon(1e-4));
 }
 
 TEST_CASE("momentum is kept by every response where balls meet in crowds", "[stability]") {

@@ -99,3 +99,16 @@ TEST_CASE("truth: with 20 steps a contact the rebound is as wanted, with 3 it ma
     CHECK(restitutions(1, 3).highest == within(1.09, 0.01));
     CHECK(restitutions(1, 20).highest < 1.001);
 }
+
+TEST_CASE("truth: the restitution that steps leave tends to e, from a few per cent at 20 steps") {
+    for (const double e : {0.3, 0.8, 1.0}) {
+        CAPTURE(e);
+        double worst = 0;
+        for (int k = 0; k < 100; ++k) {
+            CHECK(std::abs(steppedRestitution(e, 1e5, 0.01 * k) - e) < 1e-4);
+            worst = std::max(worst, std::abs(steppedRestitution(e, 20, 0.01 * k) - e));
+        }
+        CHECK(worst < 0.035);
+        if (e < 1) CHECK(worst > 0.005);
+    }
+}

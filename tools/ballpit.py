@@ -13,8 +13,8 @@ import signal
 from workbook import build
 from workbook.errors import BAD_INPUT, FAILED, INTERRUPTED, InputError, ToolError
 
-MODULES = ["progress", "checking", "reading", "running", "maps", "doctor", "proving", "generating",
-           "videos"]
+MODULES = ["progress", "checking", "reading", "running", "maps", "chart", "plans", "doctor",
+           "proving", "generating", "videos"]
 
 ABOUT = "Build a GPU collision engine, chapter by chapter. Start with chapters/README.md."
 

@@ -62,6 +62,11 @@ class Profile(NamedTuple):
     columns: list
     metrics: dict  # ncu's name: how to write it
     rows: list
+    suffix: str = "_reference"  # of the program's file
+
+    @property
+    def executable(self):
+        return self.program + self.suffix
 
 
 def kernel(name, launch=-1):
@@ -109,6 +114,15 @@ PROFILES = {
     "10": [Profile("10_full_system", "--time", MILLION, ["kernel", "balls", "memory bus in use"],
                    {BUS: percent}, [Row([f"`{name}`", "1000000"], name)
                                     for name in ["integrateAndHash", "reorderAndFindCells"]])],
+    # Of the colours the first is the largest, of the rounds the first has most pairs to colour.
+    "11": [Profile("gravity_fall", "--scene pile --response small-steps --frames 2", MILLION,
+                   ["kernel", "balls", "sectors a read request",
+                    "cycles waiting for memory, per instruction", "memory bus in use"],
+                   {SECTORS_A_REQUEST: plain, WAITING: plain, BUS: percent},
+                   [Row(["`pushApart`, the first colour", "1000000"], "pushApart", 0),
+                    Row(["`bidForColour`, the first round", "1000000"], "bidForColour", 0),
+                    Row(["`velocityFromPositions`", "1000000"], "velocityFromPositions", 0)],
+                   suffix="")],
 }
 
 
@@ -119,7 +133,7 @@ def mangled(row):
 
 def command(profile):
     functions = sorted({mangled(row) for row in profile.rows})
-    program = ROOT / "build" / "cuda-release" / "bin" / f"{profile.program}_reference"
+    program = ROOT / "build" / "cuda-release" / "bin" / profile.executable
     return ["ncu", "--csv", "--page", "raw", "--print-units", "base", "--clock-control", "none",
             "--kernel-name-base", "mangled", "--print-kernel-base", "mangled",
             "--kernel-name", f"regex:{'|'.join(functions)}", "--metrics", ",".join(profile.metrics),
@@ -178,7 +192,7 @@ def write_table(chapter, where, rows):
     profile = PROFILES[chapter][0]
     with open(ROOT / "docs" / "results" / f"chapter_{chapter}_profile.csv", "w", newline="") as out:
         out.write(f"# {where}. python3 tools/profile_chapters.py {chapter}: "
-                  f"ncu --metrics {','.join(profile.metrics)} {profile.program}_reference "
+                  f"ncu --metrics {','.join(profile.metrics)} {profile.executable} "
                   f"--device cuda --count {profile.count}\n")
         csv.writer(out, lineterminator="\n").writerows([profile.columns, *rows])
 

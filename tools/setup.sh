@@ -7,6 +7,13 @@ libgl-dev libegl-dev libx11-dev libglu1-mesa-dev libglew-dev libgl1-mesa-dri
 freeglut3-dev libfreetype-dev fonts-dejavu-core
 libavcodec-dev libavformat-dev libswscale-dev"
 
+# Installed by `./ballpit chart` alone.
+chart_packages="python3-matplotlib"
+
+# Not needed and not installed: other engines, for `./ballpit chart --peers` (docs/peers.md).
+# shellcheck disable=SC2034  # read by .ci/run
+peer_packages="libbullet-dev libode-dev"
+
 # The packages of the list "$1" that are not installed.
 missing_packages() {
     for package in $1; do

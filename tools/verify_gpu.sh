@@ -38,8 +38,11 @@ for part in $parts; do
         ;;
     hashes)
         for arguments in "--scene gravity_fall --count 500 --frames 500" \
-            "--scene gravity_fall --count 20000 --frames 200" "--scene gas --count 100000 --frames 100" \
-            "--scene pile --count 100000 --frames 100" "--scene uniform --count 1000000 --frames 20"; do
+            "--plan original --count 500 --frames 500" \
+            "--scene gravity_fall --count 20000 --frames 200" \
+            "--plan original --scene gas --count 100000 --frames 100" \
+            "--plan original --scene pile --count 100000 --frames 100" \
+            "--plan original --scene uniform --count 1000000 --frames 20"; do
             for device in cpu cuda; do
                 # shellcheck disable=SC2086
                 $bin/gravity_fall $arguments --device $device --json 2>/dev/null |

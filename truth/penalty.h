@@ -38,6 +38,30 @@ inline double stiffnessFor(double overlap, double v, double m) {
 /// Semi-implicit steps longer than this blow an undamped spring up, s: 2 / omega0.
 inline double longestStableStep(double k, double m) { return 2 / std::sqrt(k / m); }
 
+/// A spring (1/s^2) and a dashpot (1/s) over the effective mass: contacts last `contactTime` s and
+/// leave the restitution e.
+struct ContactSpring {
+    double spring, dashpot;
+};
+inline ContactSpring contactSpring(double contactTime, double e) {
+    const double logarithm = std::log(e), pi = std::numbers::pi;
+    return {(pi * pi + logarithm * logarithm) / (contactTime * contactTime),
+            -2 * logarithm / contactTime};
+}
+
+/// The restitution that is left of e where steps move first and then press (semi-implicit), so many
+/// to a contact that begins when the share `phase` of a step is over. The engine's own error: the
+/// force begins up to a step late, and ends as late.
+inline double steppedRestitution(double e, double stepsOfContact, double phase) {
+    const ContactSpring press = contactSpring(stepsOfContact, e);
+    double depth = -phase, separation = -1;
+    for (;;) {
+        depth -= separation;
+        if (depth <= 0) return separation;
+        separation += press.spring * depth - press.dashpot * separation;
+    }
+}
+
 /// What accuracy costs: with an overlap of at most f radii at the speed v and 20 steps a contact, a
 /// ball moves only this many radii in a step: pi f / 20.
 inline double travelPerPenaltyStep(double f) { return std::numbers::pi * f / 20; }

@@ -9,9 +9,10 @@ namespace ballpit {
 /// From the centre of the ball in slot a to that of b, m, of any length. Coincident centres have no
 /// direction: the ball with the smaller id is then taken to lie below, so that both agree.
 HD inline Vec3 lineOfCentres(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
-    // ---- hole impulse.line (about 3 lines): From centre a to centre b; if they coincide, up or down by id
+    const Vec3 line = betweenCentres(a, b, bodies);
+    // ---- hole impulse.line (about 2 lines): The line, but if the centres coincide, up or down by id
     TODO_HOLE("impulse.line");
-    return {0.0f, 1.0f, 0.0f};
+    return line;
     // ---- end of impulse.line
 }
 
@@ -28,11 +29,13 @@ struct Contact {
     float separation;   ///< m/s: how fast they leave each other; negative while they approach
 };
 
-/// The contact of the balls in slots a and b.
-HD inline Contact contactBetween(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
-    const Vec4 sphereA = bodies.positions[a], sphereB = bodies.positions[b];
-    const Vec3 line = lineOfCentres(a, b, bodies);
-    // ---- hole impulse.contact (about 5 lines): Normal, overlap, and speed of separation, from the line
+/// The contact of the balls in slots a and b. Always inlined: a compiler that calls it instead
+/// takes a tenth longer for a whole response.
+[[gnu::always_inline]] HD inline Contact contactBetween(std::uint32_t a, std::uint32_t b,
+                                                        const BodiesView& bodies) {
+    const Vec3 between = betweenCentres(a, b, bodies), line = lineOfCentres(a, b, bodies);
+    const float reach = bodies.positions[a].w + bodies.positions[b].w;
+    // ---- hole impulse.contact (about 4 lines): Normal, overlap, and speed of separation, from the line
     TODO_HOLE("impulse.contact");
     return {line, 0.0f, 0.0f};
     // ---- end of impulse.contact

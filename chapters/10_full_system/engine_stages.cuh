@@ -27,7 +27,7 @@ public:
         : settings_(checked(settings)),
           count_(settings.objects),
           bodies_(settings.device, static_cast<std::size_t>(count_)),
-          grid_(settings.device, settings.bounds, settings.cellSize, count_),
+          grid_(settings.device, gridBounds(settings), settings.cellSize, count_),
           pairs_(settings.device, static_cast<std::size_t>(count_), settings.firstPairCapacity()),
           response_(makeResponse(settings_)),
           status_(settings.device),
@@ -50,7 +50,7 @@ public:
     static std::size_t predictedBytes(const SimulatorSettings& s) {
         const auto count = static_cast<std::size_t>(s.objects);
         return RigidBodySystem::predictedBytes(count) +
-               UniformGrid::predictedBytes(s.bounds, s.cellSize, count) +
+               UniformGrid::predictedBytes(gridBounds(s), s.cellSize, count) +
                PairList::predictedBytes(count, s.firstPairCapacity()) + predictedResponseBytes(s);
     }
 

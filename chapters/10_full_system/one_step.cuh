@@ -38,7 +38,9 @@ inline float motionShare(int round, int rounds, bool rebuild) {
 
 /// Enqueues all stages of a step that starts from the copies `from`, which stay as they are.
 /// Returns the copies that will hold the result. `rebuild`: the grid is built in every round.
-inline Copies enqueueStep(EngineStages& stages, Copies from, bool rebuild) {
+/// Stages: EngineStages, or a class that has the same and some of its own (chapter 11's box).
+template <class Stages>
+Copies enqueueStep(Stages& stages, Copies from, bool rebuild) {
     const int rounds = *stages.settings().iterations;
     stages.beginReport();
     Copies now = from;

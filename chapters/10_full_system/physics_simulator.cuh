@@ -107,6 +107,7 @@ private:
         requireBallsFit();
         requireRestitution();
         if (makeRoomToReach()) forgetRecordings();
+        slack_.narrow(stepsDone_);
         StepStats stats;
         const auto capacityBefore = static_cast<std::uint32_t>(pairs_.pairs.count());
         // With several rounds, balls move while the grid stays. If a ball of the largest radius
@@ -120,6 +121,9 @@ private:
             TODO_HOLE("system.grow");
             // ---- end of system.grow
             requireFinite(status, stepsDone_);
+            const bool leftReach =
+                status.staleGrid && movesInSubsteps() && gridCanGoStale() && !rebuild;
+            if (leftReach && slack_.widen(stepsDone_)) continue;
             // ---- hole system.rebuild (about 5 lines): Stale grid? Try again with a grid in every round
             TODO_HOLE("system.rebuild");
             // ---- end of system.rebuild
@@ -159,7 +163,8 @@ private:
         timer_.clear();
         const bool useRecording = settings_.device == Device::cuda && !settings_.timeStages;
         if (useRecording && scratchReady_) {
-            auto [place, isNew] = recordings_.try_emplace({from.moving, from.fixed, rebuild});
+            auto [place, isNew] =
+                recordings_.try_emplace({from.moving, from.fixed, rebuild, slack_.doublings()});
             RecordedStep& step = place->second;
             if (isNew) step.launches.record([&] { step.result = enqueue(from, rebuild); });
             step.launches.replay();
@@ -175,7 +180,7 @@ private:
     /// without would nearly always be in vain then.
     static constexpr long rebuildSteps = 16;
 
-    std::map<std::tuple<std::size_t, std::size_t, bool>, RecordedStep> recordings_;
+    std::map<std::tuple<std::size_t, std::size_t, bool, int>, RecordedStep> recordings_;
     Copies next_;
     long stepsDone_ = 0;
     long rebuildUntil_ = 0;

@@ -114,6 +114,8 @@ struct Duel {
     Fighter fails, holds;
     const char* measure;
     std::string (*value)(Side& side);
+    int framesAStep = 1;  ///< of a film: how long it holds each step
+    Bounds view{};        ///< of a film: what it shows, m; all of the world if empty
 
     /// What a figure follows from step to step: the overlap with gravity, else the energy.
     double track(Side& side) const {
@@ -130,9 +132,11 @@ inline std::vector<Duel> allDuels() {
              [](Seed) { return makePocket(1); },
              1,
              {jacobi},
-             {massSplit},
+             {coloured},
              energy,
-             energyKept},
+             energyKept,
+             1,
+             {{-1.5f, -1, -1.5f}, {1.5f, 2, 1.5f}}},
             {"gas",
              [](Seed seed) { return makeGasOf({.count = 216, .volumeShare = 0.4f, .seed = seed}); },
              80,
@@ -160,7 +164,9 @@ inline std::vector<Duel> allDuels() {
              {coloured},
              {smallSteps, 0, 64},
              "balls struck",
-             ballsStruck},
+             ballsStruck,
+             50,
+             {{-5, -2, -2}, {12, 7, 7}}},
             {"crowd",
              [](Seed seed) { return makePile(500, seed); },
              10,

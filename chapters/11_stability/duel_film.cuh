@@ -55,7 +55,8 @@ inline Spheres sideBySide(Match& match, Vec3 shift) {
 /// the options say otherwise.
 inline void filmDuel(const Duel& duel, Options options) {
     Match match(duel, options);
-    const Bounds box = match.scene.bounds;
+    const bool showsAll = extent(duel.view).x == 0.0f;
+    const Bounds box = showsAll ? match.scene.bounds : duel.view;
     const Vec3 shift{0.55f * (box.upper.x - box.lower.x), 0, 0};
     if (!options.shot.yaw) options.shot.yaw = 0.0f;
     Film film(options, {box.lower - shift, box.upper + shift});
@@ -63,7 +64,7 @@ inline void filmDuel(const Duel& duel, Options options) {
         duel.scene + ": " + match.sides[0].methodName() + " | " + match.sides[1].methodName();
     const StopRequest stop;
     for (int frame = 1; frame <= options.frames && !StopRequest::received(); ++frame) {
-        match.step();
+        if (frame % duel.framesAStep == 0) match.step();
         if (!options.isFilmed() && frame < options.frames) continue;
         const Spheres both = sideBySide(match, shift);
         film.capture(both.positions, both.radii, both.colors, names);

@@ -9,10 +9,10 @@ namespace ballpit {
 /// From the centre of the ball in slot a to that of b, m, of any length. Coincident centres have no
 /// direction: the ball with the smaller id is then taken to lie below, so that both agree.
 HD inline Vec3 lineOfCentres(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
-    //@hole impulse.line lines=3 "From centre a to centre b; if they coincide, up or down by id"
+    const Vec3 line = betweenCentres(a, b, bodies);
+    //@hole impulse.line lines=2 "The line, but if the centres coincide, up or down by id"
     //@starter TODO_HOLE("impulse.line");
-    //@starter return {0.0f, 1.0f, 0.0f};
-    const Vec3 line = xyz(bodies.positions[b]) - xyz(bodies.positions[a]);
+    //@starter return line;
     if (lengthSquared(line) > 0.0f) return line;
     return {0.0f, bodies.ids[a] < bodies.ids[b] ? 1.0f : -1.0f, 0.0f};
     //@end
@@ -31,17 +31,18 @@ struct Contact {
     float separation;   ///< m/s: how fast they leave each other; negative while they approach
 };
 
-/// The contact of the balls in slots a and b.
-HD inline Contact contactBetween(std::uint32_t a, std::uint32_t b, const BodiesView& bodies) {
-    const Vec4 sphereA = bodies.positions[a], sphereB = bodies.positions[b];
-    const Vec3 line = lineOfCentres(a, b, bodies);
-    //@hole impulse.contact lines=5 "Normal, overlap, and speed of separation, from the line"
+/// The contact of the balls in slots a and b. Always inlined: a compiler that calls it instead
+/// takes a tenth longer for a whole response.
+[[gnu::always_inline]] HD inline Contact contactBetween(std::uint32_t a, std::uint32_t b,
+                                                        const BodiesView& bodies) {
+    const Vec3 between = betweenCentres(a, b, bodies), line = lineOfCentres(a, b, bodies);
+    const float reach = bodies.positions[a].w + bodies.positions[b].w;
+    //@hole impulse.contact lines=4 "Normal, overlap, and speed of separation, from the line"
     //@starter TODO_HOLE("impulse.contact");
     //@starter return {line, 0.0f, 0.0f};
     const float inverseLength = 1.0f / length(line);
     const Vec3 normal = inverseLength * line;
-    const float distance = dot(xyz(sphereB) - xyz(sphereA), normal);
-    return {normal, sphereA.w + sphereB.w - distance,
+    return {normal, reach - dot(between, normal),
             separationAlong(line, bodies.velocities[a], bodies.velocities[b]) * inverseLength};
     //@end
 }

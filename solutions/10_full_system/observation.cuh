@@ -48,8 +48,8 @@ public:
 
     std::vector<Vec3> colors(ColorBy by) {
         if (by == ColorBy::body) return balls_.colors;
-        const bool touching = by == ColorBy::contacts && step_ > 0;
-        const std::vector<Pair> pairs = touching ? simulator_.lastPairs() : std::vector<Pair>{};
+        const bool needsPairs = by == ColorBy::contacts && step_ > 0;
+        const std::vector<Pair> pairs = needsPairs ? touchingPairs() : std::vector<Pair>{};
         const std::vector<std::uint32_t> order = simulator_.bodies().idsInMemoryOrder();
         return colorsBy(by,
                         {balls(), pairs, order, scene_.bounds.lower, scene_.cellSize, topSpeed_});
@@ -58,7 +58,8 @@ public:
     /// Energy, momentum, penetrations, hash: measured on the host.
     const MeasuredFigures& figures() {
         if (!figures_)
-            figures_ = {step_, measure(balls(), scene_.bounds, scene_.gravity, scene_.dt),
+            figures_ = {step_,
+                        measure(balls(), scene_.bounds, scene_.gravity, scene_.dt, scene_.periodic),
                         stateHash(balls())};
         return *figures_;
     }
@@ -75,6 +76,21 @@ public:
     }
 
 private:
+    /// The listed pairs that touch. With substeps near ones are listed as well; those that were
+    /// pushed apart touch to a hair.
+    std::vector<Pair> touchingPairs() {
+        constexpr float hair = 1e-3f;  // of a distance
+        std::vector<Pair> pairs = simulator_.lastPairs();
+        if (!simulator_.movesInSubsteps()) return pairs;
+        const Spheres& now = balls();
+        std::erase_if(pairs, [&](Pair pair) {
+            const float reach = now.radii[pair.first] + now.radii[pair.second];
+            const Vec3 line = now.positions[pair.second] - now.positions[pair.first];
+            return length(line) > (1.0f + hair) * reach;
+        });
+        return pairs;
+    }
+
     /// What falls from top to floor arrives with this, and nothing that starts faster is slower.
     static float topSpeed(const Scene& scene) {
         float speed = std::sqrt(2.0f * length(scene.gravity) * extent(scene.bounds).y);

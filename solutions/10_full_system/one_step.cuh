@@ -21,8 +21,10 @@ inline std::size_t otherWorkingCopy(std::size_t committed, std::size_t inUse) {
     //@end
 }
 
-/// Builds the grid; the bodies go to the working copies that are free, which are returned.
+/// Builds the grid; the bodies go to the working copies that are free, which are returned. With one
+/// cell for all there is nothing to build, and the bodies stay where they are.
 inline Copies sortInto(EngineStages& stages, Copies committed, Copies now) {
+    if (!stages.sortsBodies()) return now;
     const Copies sorted{otherWorkingCopy(committed.moving, now.moving),
                         otherWorkingCopy(committed.fixed, now.fixed)};
     stages.buildGrid(now, sorted);
@@ -40,7 +42,9 @@ inline float motionShare(int round, int rounds, bool rebuild) {
 
 /// Enqueues all stages of a step that starts from the copies `from`, which stay as they are.
 /// Returns the copies that will hold the result. `rebuild`: the grid is built in every round.
-inline Copies enqueueStep(EngineStages& stages, Copies from, bool rebuild) {
+/// Stages: EngineStages, or a class that has the same and some of its own (chapter 11's box).
+template <class Stages>
+Copies enqueueStep(Stages& stages, Copies from, bool rebuild) {
     const int rounds = *stages.settings().iterations;
     stages.beginReport();
     Copies now = from;

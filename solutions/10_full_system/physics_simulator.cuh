@@ -41,6 +41,39 @@ public:
     /// Does all of a step's work, but keeps the state from before it. For measuring.
     StepStats rehearseStep() { return attemptUntilComplete(); }
 
+    /// Goes on with other settings from the next step on. Number of bodies, world and device must
+    /// be those there are; the bodies stay as they are. InputError as from the constructor.
+    void change(const SimulatorSettings& settings) {
+        adopt(settings);
+        forgetRecordings();
+        rebuildUntil_ = 0;
+    }
+
+    /// All touching pairs of the bodies as they are, and the bodies in the same order: what can be
+    /// read about a state without changing it. `counts` is memory to work in: before the first use,
+    /// counts[i] says how many of the pairs have body i as their first. All of it is good until the
+    /// next step.
+    struct Survey {
+        BodiesView bodies;
+        PairsView pairs;
+        View<std::uint32_t> counts;
+    };
+    Survey survey() {
+        const Copies from = bodies_.state();
+        for (;;) {
+            beginReport();
+            hash(from);
+            const Copies sorted = sortInto(*this, from, from);
+            detectCollisions(sorted);
+            sendReport();
+            const StepStatus status = status_.wait();
+            requireCountable(status);
+            if (status.pairsNeeded <= pairs_.pairs.count())
+                return {bodies_.view(sorted), pairs_.view(), pairs_.counts.view()};
+            growPairList(status.pairsNeeded);
+        }
+    }
+
     /// Whether steps fill StepStats::stages from now on.
     void timeStages(bool on) {
         settings_.timeStages = on;
@@ -108,6 +141,7 @@ private:
         requireBallsFit();
         requireRestitution();
         if (makeRoomToReach()) forgetRecordings();
+        slack_.narrow(stepsDone_);
         StepStats stats;
         const auto capacityBefore = static_cast<std::uint32_t>(pairs_.pairs.count());
         // With several rounds, balls move while the grid stays. If a ball of the largest radius
@@ -126,6 +160,9 @@ private:
             }
             //@end
             requireFinite(status, stepsDone_);
+            const bool leftReach =
+                status.staleGrid && movesInSubsteps() && gridCanGoStale() && !rebuild;
+            if (leftReach && slack_.widen(stepsDone_)) continue;
             //@hole system.rebuild lines=5 "Stale grid? Try again with a grid in every round"
             //@starter TODO_HOLE("system.rebuild");
             if (status.staleGrid && gridCanGoStale() && !rebuild) {
@@ -135,6 +172,7 @@ private:
             }
             //@end
             stats.collisions = status.collisions;
+            stats.listed = status.pairsNeeded;
             stats.outside = status.outside;
             break;
         }
@@ -171,7 +209,8 @@ private:
         timer_.clear();
         const bool useRecording = settings_.device == Device::cuda && !settings_.timeStages;
         if (useRecording && scratchReady_) {
-            auto [place, isNew] = recordings_.try_emplace({from.moving, from.fixed, rebuild});
+            auto [place, isNew] =
+                recordings_.try_emplace({from.moving, from.fixed, rebuild, slack_.doublings()});
             RecordedStep& step = place->second;
             if (isNew) step.launches.record([&] { step.result = enqueue(from, rebuild); });
             step.launches.replay();
@@ -188,7 +227,7 @@ private:
     /// without would nearly always be in vain then.
     static constexpr long rebuildSteps = 16;
 
-    std::map<std::tuple<std::size_t, std::size_t, bool>, RecordedStep> recordings_;
+    std::map<std::tuple<std::size_t, std::size_t, bool, int>, RecordedStep> recordings_;
     Copies next_;
     long stepsDone_ = 0;
     long rebuildUntil_ = 0;

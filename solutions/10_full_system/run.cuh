@@ -3,6 +3,8 @@
 
 #include "10_full_system/viewer.h"
 #include "10_full_system/window_feed.cuh"
+#include "12_speed_and_accuracy/planned_run.cuh"
+#include "12_speed_and_accuracy/tolerance.h"
 #include "common/csv.h"
 #include "common/film.h"
 #include "common/progress.h"
@@ -42,20 +44,79 @@ private:
     Ledger ledger_;
 };
 
-inline void count(const StepStats& stats, Summary& summary) {
-    ++summary.steps;
-    summary.collisions += stats.collisions;
-    summary.overflows += stats.overflow > 0;
-    summary.rebuilds += stats.gridRebuilt;
-    summary.outside += stats.outside;
-    summary.millisecondsPerStep +=
-        (stats.frameTimeMs - summary.millisecondsPerStep) / summary.steps;
-}
+/// What moves the scene: a simulator, and a planner that tells it how, or the settings of the
+/// options.
+class Engine {
+public:
+    Engine(const Options& options, const Scene& scene)
+        : simulator_(settingsOf(options, scene)), plans_(options.planned()) {
+        simulator_.bodies().upload(scene.spheres);
+        if (!plans_) return;
+        planner_.emplace(simulator_, scene, options.tolerance.value_or(toleranceOf(scene.name)));
+        if (options.tolerance) requireMet(planner_->plan());
+    }
+
+    PhysicsSimulator& simulator() { return simulator_; }
+
+    /// Moves the scene by a frame; counts what there was to count.
+    StepStats frame(Summary& summary) {
+        followScene(summary.steps);
+        const int steps = planner_ ? planner_->plan().stepsAFrame : 1;
+        StepStats whole;
+        for (int k = 0; k < steps; ++k) addTo(whole, simulator_.step(), summary);
+        ++summary.steps;
+        summary.millisecondsPerStep +=
+            (whole.frameTimeMs - summary.millisecondsPerStep) / summary.steps;
+        return whole;
+    }
+
+    void report(Summary& summary) const {
+        if (!planner_) {
+            summary.plan = inShort(simulator_.settings());
+            return;
+        }
+        summary.plan = inShort(planner_->plan());
+        summary.readings = planner_->readings();
+        summary.planShare =
+            planner_->milliseconds() /
+            (planner_->milliseconds() + summary.millisecondsPerStep * summary.steps);
+    }
+
+private:
+    static SimulatorSettings settingsOf(const Options& options, const Scene& scene) {
+        SimulatorSettings settings = settingsFor(scene, options.device);
+        settings.response = responseMethod(options.response);
+        settings.broadPhase = options.allPairs ? BroadPhaseMethod::naive : BroadPhaseMethod::grid;
+        static_cast<ResponseKnobs&>(settings) = options.knobs;
+        return settings;
+    }
+
+    void followScene(int frame) {
+        if (!planner_ || frame == 0) return;
+        if (const std::optional<std::string> change = planner_->beforeFrame(frame))
+            std::cerr << *change << std::endl;
+    }
+
+    static void addTo(StepStats& whole, StepStats step, Summary& summary) {
+        summary.collisions += step.collisions;
+        summary.overflows += step.overflow > 0;
+        summary.rebuilds += step.gridRebuilt;
+        summary.outside += step.outside;
+        step.frameTimeMs += whole.frameTimeMs;
+        addStages(step.stages, whole.stages);
+        whole = std::move(step);
+    }
+
+    PhysicsSimulator simulator_;
+    bool plans_;
+    std::optional<Planner> planner_;
+};
 
 /// Steps until the frames are done or the user stops it; fills in what was counted. `link` leads to
 /// a window, or is null.
-inline void runSteps(PhysicsSimulator& simulator, const Scene& scene, const Options& options,
-                     ViewerLink* link, Summary& summary) {
+inline void runSteps(Engine& engine, const Scene& scene, const Options& options, ViewerLink* link,
+                     Summary& summary) {
+    PhysicsSimulator& simulator = engine.simulator();
     OrderedFilm film(options, scene);
     Observation now(simulator, scene);
     std::optional<WindowFeed> feed;
@@ -69,12 +130,11 @@ inline void runSteps(PhysicsSimulator& simulator, const Scene& scene, const Opti
     while (summary.steps < summary.stepsAsked && !StopRequest::received() &&
            (!feed || feed->awaitTurn(now))) {
         simulator.timeStages(film.wantsTimes() || (feed && feed->wantsTimes()));
-        const StepStats stats = simulator.step();
+        const StepStats stats = engine.frame(summary);
         now.stepDone(stats);
         film.stepDone(now);
         if (feed) feed->stepDone(now);
         if (progress) progress->advance(stats.frameTimeMs);
-        count(stats, summary);
     }
     progress.reset();
     if (feed) feed->finish();
@@ -85,20 +145,15 @@ inline void runSteps(PhysicsSimulator& simulator, const Scene& scene, const Opti
 /// stops being finite, the last good state is saved before NotFiniteError goes on.
 inline Summary runScene(const Options& options) {
     const Scene scene = sceneFor(options);
-    SimulatorSettings settings = settingsFor(scene, options.device);
-    settings.response = responseMethod(options.response);
-    static_cast<ResponseKnobs&>(settings) = options.knobs;
-    PhysicsSimulator simulator(settings);
-    simulator.bodies().upload(scene.spheres);
+    Engine engine(options, scene);
+    PhysicsSimulator& simulator = engine.simulator();
 
     Summary summary{.scene = scene.name, .device = options.device, .balls = scene.spheres.count()};
     summary.stepsAsked = options.frames;
     summary.dt = scene.dt;
     const StopRequest stop;
     try {
-        const auto run = [&](ViewerLink* link) {
-            runSteps(simulator, scene, options, link, summary);
-        };
+        const auto run = [&](ViewerLink* link) { runSteps(engine, scene, options, link, summary); };
         options.view ? runBesideWindow(options, scene, run) : run(nullptr);
     } catch (const NotFiniteError& error) {
         const std::string path =
@@ -111,7 +166,8 @@ inline Summary runScene(const Options& options) {
 
     const Spheres final = simulator.bodies().download();
     if (!options.saveFile.empty()) writeSpheres(options.saveFile, final);
-    summary.metrics = measure(final, scene.bounds, scene.gravity, scene.dt);
+    engine.report(summary);
+    summary.metrics = measure(final, scene.bounds, scene.gravity, scene.dt, scene.periodic);
     summary.hash = stateHash(final);
     summary.video = options.out;
     summary.picture = options.png;

@@ -15,6 +15,7 @@ namespace ballpit {
 
 struct StepStats {
     std::uint32_t collisions = 0;   ///< touching pairs in the first round
+    std::uint32_t listed = 0;       ///< the most pairs that a round listed: those within reach
     double frameTimeMs = 0.0;       ///< wall time of the step
     std::uint32_t outside = 0;      ///< bodies that were outside the world when hashed
     std::uint32_t overflow = 0;     ///< pairs found beyond the capacity, before it grew; none lost

@@ -36,14 +36,19 @@ public:
                      const ContactRules& rules)
         : device_(device), rules_(rules), colouring_(device, bodyCount, pairCapacity) {}
 
-    void resolve(const ResponseRound& round) override {
-        launch<copyBody>(device_, round.bodyCount, round.from, round.to);
-        colouring_.colour(round.pairs);
-        colouring_.forEachPair<resolvePair>(round, rules_);
-        launch<reportRound>(device_, round.bodyCount, round);
-    }
+    void resolve(const ResponseRound& round) override { resolveWith<resolvePair>(round); }
     void reserve(std::size_t pairCapacity) override { colouring_.reserve(pairCapacity); }
     std::size_t bytes() const override { return colouring_.bytes(); }
+
+protected:
+    /// Runs body(k, round, rules, arguments...) for every pair k, colour after colour.
+    template <auto body, class... Args>
+    void resolveWith(const ResponseRound& round, Args... args) {
+        launch<copyBody>(device_, round.bodyCount, round.from, round.to);
+        colouring_.colour(round.pairs);
+        colouring_.forEachPair<body>(round, rules_, args...);
+        launch<reportRound>(device_, round.bodyCount, round);
+    }
 
 private:
     Device device_;

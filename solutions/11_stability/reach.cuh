@@ -4,7 +4,7 @@
 // Why nothing is missed: a pair not listed had a gap of at least the sum of its two reaches. As
 // long as neither body is farther from where it was then than its reach, the gap is not closed. So
 // it is enough to watch each body by itself (reportReach); if one goes too far, the step is
-// repeated with a new list for every move.
+// repeated with longer reaches, or with a new list for every move.
 #pragma once
 
 #include <limits>

@@ -2,14 +2,46 @@
 #pragma once
 
 #include "10_full_system/one_step.cuh"
+#include "11_stability/periodic.cuh"
 #include "11_stability/reach.cuh"
 
 namespace ballpit {
 
-class SubstepStages : public EngineStages {
+/// How far balls may be pushed beyond their expected way, in radii. It doubles when a ball left its
+/// reach in a step, and halves again after a while without need: longer reaches list more pairs,
+/// but a list for each substep costs more.
+class ReachSlack {
+public:
+    float inRadii() const { return 0.05f * static_cast<float>(1 << doublings_); }
+    int doublings() const { return doublings_; }
+
+    /// For step `step` and some more. False if the slack is the largest already.
+    bool widen(long step) {
+        if (doublings_ == mostDoublings) return false;
+        ++doublings_;
+        keptUntil_ = step + stepsKept;
+        return true;
+    }
+
+    /// Before step `step`. Asked twice before the same step, it changes nothing the second time.
+    void narrow(long step) {
+        if (doublings_ == 0 || step < keptUntil_) return;
+        --doublings_;
+        keptUntil_ = step + stepsKept;
+    }
+
+private:
+    static constexpr int mostDoublings = 2;
+    static constexpr long stepsKept = 16;
+
+    int doublings_ = 0;
+    long keptUntil_ = 0;
+};
+
+class SubstepStages : public PeriodicStages {
 public:
     explicit SubstepStages(const SimulatorSettings& settings)
-        : EngineStages(settings),
+        : PeriodicStages(settings),
           grown_(settings.device, movesInSubsteps() ? static_cast<std::size_t>(count_) : 0,
                  "ballsWithReach") {}
 
@@ -17,6 +49,8 @@ public:
     bool movesInSubsteps() const { return response_->stepKind() == StepKind::substeps; }
 
     std::size_t bytes() const { return EngineStages::bytes() + grown_.bytes(); }
+
+    const ReachSlack& slack() const { return slack_; }
 
     /// Moves the bodies freely for a substep, to others or where they are; walls are the
     /// response's. Hashes them as well, in case the grid is built next.
@@ -32,8 +66,10 @@ public:
     void detectWithinReach(Copies copies, int moves) {
         timer_.start("broad phase");
         const BodiesView bodies = bodies_.view(copies);
+        // A list that serves one substep alone needs no more than the least slack.
+        const float slack = (moves == 0 ? ReachSlack() : slack_).inRadii();
         const ReachSettings reach{static_cast<float>(moves) * substep(), length(settings_.gravity),
-                                  reachSlack, 0.5f * grid_.cellSize};
+                                  slack, 0.5f * grid_.cellSize};
         launch<growByReach>(settings_.device, count_, bodies, reach, grown_.view());
         findPairsGrid(settings_.device, count_, grid_.view(), grid_.sortedHashes.view(),
                       grown_.view(), pairs_, status_.view(), scratch_);
@@ -57,6 +93,12 @@ public:
     }
 
 protected:
+    void adopt(const SimulatorSettings& settings) {
+        EngineStages::adopt(settings);
+        if (movesInSubsteps() && grown_.count() == 0)
+            grown_.resize(static_cast<std::size_t>(count_));
+    }
+
     /// Makes the cells larger than the balls, so that these can reach beyond themselves. True if
     /// the grid is a new one.
     bool makeRoomToReach() {
@@ -66,9 +108,9 @@ protected:
         return true;
     }
 
+    ReachSlack slack_;
+
 private:
-    /// How far a ball may be pushed beyond its expected way, in radii.
-    static constexpr float reachSlack = 0.05f;
     /// Cells, in diameters of the largest ball.
     static constexpr float roomToReach = 1.4f;
 

@@ -38,9 +38,11 @@ endfunction()
 # GRAPHICS: a build without graphics leaves the chapter out, and says so in the file left_out.
 # PRODUCT name: the solution's program is called so, NN_name_reference is another name for it, and
 # both programs have the window as well, the student's with the student's own studio.
+# LIBRARIES names...: what both programs need besides. SOURCES files...: those of the libraries that use
+# the piece; the student's program compiles them itself, with the student's piece.
 file(WRITE ${PROJECT_BINARY_DIR}/left_out "")
 function(ballpit_chapter folder)
-    cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO;GRAPHICS" "PRODUCT" "")
+    cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO;GRAPHICS" "PRODUCT" "LIBRARIES;SOURCES")
     string(SUBSTRING ${folder} 0 2 label)
     if(chapter_GRAPHICS AND NOT BALLPIT_WITH_GRAPHICS)
         file(APPEND ${PROJECT_BINARY_DIR}/left_out "${label}\n")
@@ -64,6 +66,10 @@ function(ballpit_chapter folder)
             add_dependencies(starters ${check})
         endif()
         target_link_libraries(${check} PRIVATE ballpit_checks)
+        target_link_libraries(${main} PRIVATE ${chapter_LIBRARIES})
+        if(NOT variant)
+            target_sources(${main} PRIVATE ${chapter_SOURCES})
+        endif()
         if(chapter_STUDIO)
             ballpit_studio(${check})
         endif()

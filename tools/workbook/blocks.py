@@ -109,7 +109,7 @@ def summary_block(chapter, arguments):
     """A run of the whole system, without what differs from machine to machine."""
     opening, command, *lines, closing = run_block(chapter, arguments)
     lines = [re.sub(r" on \w+ \(.*\)$", "", line) for line in lines
-             if not line.startswith("  time per step")]
+             if not line.startswith(("  time per frame", "  planning"))]
     return [opening, command, *lines, closing]
 
 

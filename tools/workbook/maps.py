@@ -1,4 +1,5 @@
-"""maps: where each response holds and where it fails, as tables and pictures."""
+"""maps: where each response holds and where it fails, as tables and pictures; and the table of all
+metrics."""
 
 import shlex
 import sys
@@ -24,18 +25,25 @@ def register(commands):
                            "(default: all)")
     maps.add_argument("--coarse", action="store_true",
                       help="few cells, small scenes: under a minute")
+    maps.add_argument("--table", action="store_true",
+                      help="no maps: run scenes (names; default: all) under each response and write "
+                           "every metric of docs/stability.md: stability_table_DEVICE.csv and .md, "
+                           "some minutes")
     maps.add_argument("--device", choices=("cpu", "cuda"), default="cpu")
     maps.add_argument("--out", metavar="FOLDER", default=str(ROOT / "build" / "maps"),
                       help="folder for the files (build/maps; those of the docs: docs/results)")
     maps.set_defaults(run=maps_command)
 
 
-def stamp(args):
+def measured_with(device, words):
     """The lines at the head of a CSV: machine, commit, command."""
-    command = ["./ballpit", "maps", *args.names, *(["--coarse"] if args.coarse else []),
-               "--device", args.device]
-    return (f"{', '.join(measure_chapters.machine(args.device))}, "
-            f"commit {measure_chapters.commit()}\n{shlex.join(command)}")
+    return (f"{', '.join(measure_chapters.machine(device))}, "
+            f"commit {measure_chapters.commit()}\n{shlex.join(['./ballpit', *words])}")
+
+
+def stamp(args):
+    flags = [f"--{flag}" for flag in ("table", "coarse") if getattr(args, flag)]
+    return measured_with(args.device, ["maps", *args.names, *flags, "--device", args.device])
 
 
 def out_folder(path):
@@ -48,7 +56,30 @@ def out_folder(path):
     return folder
 
 
+def table_command(args):
+    if args.coarse:
+        raise InputError("--coarse is of maps; a smaller table has fewer scenes: name them")
+    folder = out_folder(args.out)
+    build.build(["ballpit_table"])
+    child = processes.start([str(build.executable("ballpit_table")), *args.names, "--device",
+                             args.device, "--out", str(folder), "--stamp", stamp(args)],
+                            stdout=processes.subprocess.PIPE, text=True)
+    for line in child.stdout:
+        note(f"written: {files.relative(Path(line.strip()))}")
+    return ended("ballpit_table", child)
+
+
+def ended(program, child):
+    """The program's exit code."""
+    code = processes.finish(child)
+    if code < 0:
+        raise ToolError(f"{program} was ended by signal {-code}")
+    return code
+
+
 def maps_command(args):
+    if args.table:
+        return table_command(args)
     folder = out_folder(args.out)
     build.build(["ballpit_maps"])
     command = [str(build.executable("ballpit_maps")), *args.names, "--device", args.device,
@@ -61,7 +92,4 @@ def maps_command(args):
         picture = csv_file.with_suffix(".svg")
         files.write(picture, failure_map.draw(csv_file))
         note(f"written: {files.relative(csv_file)}, {files.relative(picture)}")
-    code = processes.finish(child)
-    if code < 0:
-        raise ToolError(f"ballpit_maps was ended by signal {-code}")
-    return code
+    return ended("ballpit_maps", child)

@@ -1,0 +1,25 @@
+// 666 under the original loop and under the plan, filmed as a duel of chapter 11.
+#pragma once
+
+#include "chapters/11_stability/duel_film.cuh"
+#include "chapters/12_speed_and_accuracy/answer.cuh"
+
+namespace ballpit {
+
+/// What the plan chooses at the start of 666.
+inline Fighter chosenFor666(const Options& options) {
+    const Scene scene = stability::makeSixCubed(0, options.seed);
+    const Plan plan =
+        makePlan(factsOf(scene, options.device), worldOf(scene), toleranceOf(scene.name));
+    return {plan.response, plan.knobs.iterations.value_or(0), plan.knobs.substeps.value_or(0)};
+}
+
+inline void film666(const Options& options) {
+    filmDuel({.scene = "666",
+              .make = [](std::uint64_t seed) { return stability::makeSixCubed(0, seed); },
+              .fails = {originalLoop().method.value()},
+              .holds = chosenFor666(options)},
+             options);
+}
+
+}  // namespace ballpit

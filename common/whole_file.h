@@ -1,0 +1,13 @@
+// A text file that appears under its name only when it is complete.
+#pragma once
+
+#include <string>
+
+namespace ballpit {
+
+/// Replaces the file `path`. Until the text is on disk, an older one stays as it is. InputError if
+/// its folder cannot be written to; a runtime_error if the disk is full, and nothing is left
+/// behind.
+void writeWhole(const std::string& path, const std::string& text);
+
+}  // namespace ballpit

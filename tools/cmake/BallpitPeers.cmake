@@ -1,0 +1,36 @@
+# Other engines on the chart of chapter 12: Bullet and ODE, each where its package is installed.
+# Sets BALLPIT_WITH_BULLET and BALLPIT_WITH_ODE. Only ballpit_peers is compiled and linked with them.
+set(BALLPIT_PEERS "AUTO" CACHE STRING "Bullet and ODE on the chart: ON, OFF, or AUTO (if found)")
+set_property(CACHE BALLPIT_PEERS PROPERTY STRINGS AUTO ON OFF)
+
+add_library(ballpit_peers STATIC chart/peers/peer.cpp chart/peers/peer_runner.cpp)
+ballpit_target(ballpit_peers)
+target_link_libraries(ballpit_peers PUBLIC ballpit_stability)
+
+# ENGINE MODULE PACKAGE: pkg-config's MODULE knows where it is, and in which precision it was built.
+function(ballpit_peer engine module package)
+    string(TOUPPER ${engine} ENGINE)
+    set(BALLPIT_WITH_${ENGINE} OFF)
+    if(NOT BALLPIT_PEERS STREQUAL "OFF")
+        find_package(PkgConfig)
+        if(PkgConfig_FOUND)
+            pkg_check_modules(${ENGINE} IMPORTED_TARGET ${module})
+        endif()
+        if(${ENGINE}_FOUND)
+            set(BALLPIT_WITH_${ENGINE} ON)
+        elseif(BALLPIT_PEERS STREQUAL "ON")
+            message(FATAL_ERROR "The peers were asked for, but ${engine} is missing. Debian: "
+                                "apt-get install ${package} pkg-config")
+        endif()
+    endif()
+    if(BALLPIT_WITH_${ENGINE})
+        target_sources(ballpit_peers PRIVATE ${PROJECT_SOURCE_DIR}/chart/peers/${engine}.cpp)
+        target_link_libraries(ballpit_peers PRIVATE PkgConfig::${ENGINE})
+    else()
+        target_sources(ballpit_peers PRIVATE ${PROJECT_SOURCE_DIR}/chart/peers/without_${engine}.cpp)
+    endif()
+    message(STATUS "Peer ${engine}: ${BALLPIT_WITH_${ENGINE}}")
+    return(PROPAGATE BALLPIT_WITH_${ENGINE})
+endfunction()
+ballpit_peer(bullet bullet libbullet-dev)
+ballpit_peer(ode ode libode-dev)
