@@ -2,6 +2,7 @@
 #include "chart/runner.h"
 #include "common/error.h"
 #include "common/timing.h"
+#include "common/with_threads.h"
 #include "stability/trial.cuh"
 
 namespace ballpit::chart {
@@ -43,6 +44,10 @@ public:
     }
 
     RunResult run(const Scene& given, const Knobs& knobs, double seconds, Meter* meter) override {
+        // A second thread for lists of pairs alone gains little, and loses all of it where another
+        // program wants a core, too.
+        const WithThreads threads(
+            given.spheres.count() < std::size_t(serialCount) ? 1 : cpuThreadCount());
         Scene scene = given;
         // A spring and dashpot cannot stop a ball dead.
         for (float& e : scene.spheres.restitutions) e = std::max(e, stability::dullest(method_));

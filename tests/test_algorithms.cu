@@ -4,8 +4,8 @@
 
 #include "03_sort/sort.cuh"
 #include "common/random.h"
+#include "common/with_threads.h"
 #include "tests/support.h"
-#include "tests/with_threads.h"
 
 namespace ballpit::test {
 
@@ -90,7 +90,7 @@ TEST_CASE("sortPairs is the standard library's stable sort") {
     const int threads = GENERATE(1, 2, 3);
     const int count = GENERATE(from_range(sizes));
     CAPTURE(threads, count);
-    const test::WithThreads scope(threads);
+    const WithThreads scope(threads);
     for (const int keyBits : {1, 2, 5, 8, 11, 12, 16, 22, 23, 31, 32}) {
         CAPTURE(keyBits);
         // Keys with higher bits set too: those must not count.
@@ -138,7 +138,7 @@ TEST_CASE("exclusiveScan gives the sums before each element, and the total") {
     const int count = GENERATE(from_range(sizes));
     const std::uint32_t below = GENERATE(1, 2, 40000);  // below 1: all zero
     CAPTURE(threads, count, below);
-    const test::WithThreads scope(threads);
+    const WithThreads scope(threads);
     const Numbers counts = randomNumbers(count, below, 11);
     Numbers expected(counts.size() + 1, 0);
     std::partial_sum(counts.begin(), counts.end(), expected.begin() + 1);
@@ -156,7 +156,7 @@ TEST_CASE("reduceMaximum is the largest element, wherever it is") {
     const int threads = GENERATE(1, 2, 3);
     const int count = GENERATE(from_range(sizes));
     CAPTURE(threads, count);
-    const test::WithThreads scope(threads);
+    const WithThreads scope(threads);
     Scratch scratch(device, 0, "scratch");
     std::vector<float> values(static_cast<std::size_t>(count), -2.0f);
     for (const double place : {0.0, 0.5, 0.999999}) {
@@ -177,7 +177,7 @@ TEST_CASE("launch visits each index exactly once, in every order and on any numb
     const int threads = GENERATE(1, 2, 3);
     const int count = GENERATE(0, 1, 2, 3, 4, 255, 256, 257, 4097);
     CAPTURE(static_cast<int>(order), threads, count);
-    const test::WithThreads scope(threads);
+    const WithThreads scope(threads);
     const test::InOrder orderScope(order);
     auto visits = onDevice(device, Numbers(static_cast<std::size_t>(count), 0));
     auto outOfRange = onDevice(device, {0});

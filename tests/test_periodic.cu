@@ -2,10 +2,10 @@
 #include "common/host_pairs.h"
 #include "common/options.h"
 #include "common/random.h"
+#include "common/with_threads.h"
 #include "stability/metrics.h"
 #include "stability/scenes.h"
 #include "tests/response_scenes.h"
-#include "tests/with_threads.h"
 
 using namespace ballpit;
 
@@ -179,9 +179,9 @@ TEST_CASE("a periodic box gives the same bits on any device, with any threads, i
         };
         const std::string expected = hashOn(Device::cpu);
         {
-            const test::WithThreads one(1);
+            const WithThreads one(1);
             CHECK(hashOn(Device::cpu) == expected);
-            const test::WithThreads two(2);
+            const WithThreads two(2);
             CHECK(hashOn(Device::cpu) == expected);
         }
         for (const LaunchOrder order : {LaunchOrder::reversed, LaunchOrder::shuffled}) {

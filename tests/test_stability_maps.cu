@@ -5,10 +5,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/with_threads.h"
 #include "stability/map_file.h"
 #include "stability/run_maps.cuh"
 #include "tests/support.h"
-#include "tests/with_threads.h"
 
 using namespace ballpit;
 using namespace ballpit::stability;
@@ -25,14 +25,14 @@ constexpr Device cpu = Device::cpu;
 // Cells on one thread, as runMap runs them: two would wait for each other in loops this short.
 
 Verdict hub(ResponseMethod method, int spokes, float restitution, double relaxation = 0) {
-    const test::WithThreads one(1);
+    const WithThreads one(1);
     return hubCell({.spokes = spokes, .cosine = 0.7f, .restitution = restitution}, method,
                    relaxation, cpu)
         .verdict;
 }
 
 Verdict gas(ResponseMethod method, float volumeShare, float travel, float restitution = 1) {
-    const test::WithThreads one(1);
+    const WithThreads one(1);
     return gasCell({.count = 125,
                     .volumeShare = volumeShare,
                     .travel = travel,
@@ -42,17 +42,17 @@ Verdict gas(ResponseMethod method, float volumeShare, float travel, float restit
 }
 
 Verdict column(ResponseMethod method, int balls, int passes) {
-    const test::WithThreads one(1);
+    const WithThreads one(1);
     return restingCell(makeColumn(balls, dullest(method)), method, passes, 2, cpu).verdict;
 }
 
 Verdict heavy(ResponseMethod method, float ratio, int passes) {
-    const test::WithThreads one(1);
+    const WithThreads one(1);
     return restingCell(makeHeavyOnLight(ratio, dullest(method)), method, passes, 2, cpu).verdict;
 }
 
 Verdict meeting(ResponseMethod method, double travel, double offset) {
-    const test::WithThreads one(1);
+    const WithThreads one(1);
     return tunnellingCell(travel, offset, method, cpu).verdict;
 }
 

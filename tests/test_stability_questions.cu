@@ -211,10 +211,12 @@ TEST_CASE("a volley keeps its lanes apart as long as its question takes") {
     CHECK(overlapOf(scene.spheres, scene.bounds).contacts == 0);
     const truth::Balls end = trueEnd(scene, q.seconds);
     const std::size_t inLane = scene.spheres.count() / 16;
+    const auto& places = scene.spheres.positions;
+    const float half = 0.5f * (places[inLane + 1].y - places[1].y);  // of a lane, m
     for (std::size_t k = 0; k < end.size(); ++k) {
         const Vec3 start = scene.spheres.positions[k / inLane * inLane];
-        CHECK(std::abs(end[k].position.y - start.y) < 7);
-        CHECK(std::abs(end[k].position.z - start.z) < 7);
+        CHECK(std::abs(end[k].position.y - start.y) < half);
+        CHECK(std::abs(end[k].position.z - start.z) < half);
         CHECK(end[k].position.x < scene.bounds.upper.x - 1);
     }
 }

@@ -220,6 +220,26 @@ def compare_methods(build):
                             digits(passes * pairs)])
 
 
+def compare_plans(build):
+    """Chapter 12's table: errors over what is asked for, and visits, the same on every machine."""
+    program = "12_speed_and_accuracy_reference"
+    command = [str(build / "bin" / program), "--scene", "every", "--device", "cpu", "--json"]
+    found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    scenes = [key.removesuffix("_asks_for") for key in found if key.endswith("_asks_for")]
+    with open(ROOT / "docs" / "results" / "chapter_12.csv", "w", newline="") as out:
+        out.write(f"# {program} --scene every --device cpu (tools/measure_chapters.py 12): the same "
+                  f"on every machine. Commit {commit()}.\n")
+        table = csv.writer(out, lineterminator="\n")
+        table.writerow(["scene", "original loop: error / tolerance", "visits a second",
+                        "plan: error / tolerance", "visits a second", "the plan's loop"])
+        for scene in scenes:
+            row = [scene]
+            for loop in ("original_loop", "plan"):
+                visits, error, tolerance, failed = found[f"{scene},_{loop},_numbers"]
+                row += ["failed" if failed else f"{error / tolerance:.2g}", round(visits)]
+            table.writerow([*row, found[f"{scene},_plan_chose"]])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("chapters", nargs="*", help="as 02 05 (default: all)")
@@ -227,12 +247,13 @@ def main():
     args = parser.parse_args()
     device = "cuda" if args.cuda else "cpu"
     build = ROOT / "build" / f"{device}-release"
-    known = [*TABLES, "11"]
+    compared = {"11": compare_methods, "12": compare_plans}
+    known = [*TABLES, *compared]
     for chapter in args.chapters or known:
         if chapter not in known:
             parser.error(f"unknown chapter '{chapter}': known are {', '.join(known)}")
-        if chapter == "11":
-            compare_methods(build)
+        if chapter in compared:
+            compared[chapter](build)
             continue
         one_way = args.cuda or chapter == "09"  # its threads are not OpenMP's
         update(chapter, device, build, [""] if one_way else [1, 2])

@@ -23,7 +23,7 @@ function(ballpit_forward_pieces label)
     endforeach()
 endfunction()
 
-# What students' files are part of, in one target.
+# All checks of students' files, in one target: they hold every piece.
 add_custom_target(starters)
 
 # A target that looks for pieces in the folder of forwarding headers of chapter `label` first.
@@ -31,7 +31,6 @@ function(ballpit_student target label)
     ballpit_target(${target} STUDENT ${ARGN})
     target_include_directories(${target} BEFORE PRIVATE ${PROJECT_BINARY_DIR}/pieces/${label})
     set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
-    add_dependencies(starters ${target})
 endfunction()
 
 # NN_name and check_NN from the student's piece, and both again from the solution. STUDIO: the piece
@@ -64,6 +63,7 @@ function(ballpit_chapter folder)
         else()
             ballpit_student(${main} ${label})
             ballpit_student(${check} ${label} CHECKED)
+            add_dependencies(starters ${check})
         endif()
         target_link_libraries(${check} PRIVATE ballpit_checks)
         target_link_libraries(${main} PRIVATE ${chapter_LIBRARIES})

@@ -53,12 +53,8 @@ class Chart:
 
 
 def ten_to(power):
-    return f"{10 ** power:,}".replace(",", " ") if 0 <= power < 5 else (
-        f"{10 ** power:g}" if -4 < power < 0 else f"10{superscript(power)}")
-
-
-def superscript(number):
-    return str(number).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    """0.01, 1000, 1e6."""
+    return f"{10.0 ** power:g}" if -5 < power < 5 else f"1e{power}"
 
 
 def cross(figure, x, y, stroke=RED, size=5):
@@ -85,7 +81,8 @@ def example(run):
             cross(figure, x, y)
         else:
             figure.circle(x, y, 7, GREEN if on_front else "#ffffff", INK)
-        figure.text(x + 12, y - 8, f"{shown} ({speed:g}, {error:g})", 13, anchor="start",
+        below = 18 if name == "d" else -8
+        figure.text(x + 12, y + below, f"{shown} ({speed:g}, {error:g})", 13, anchor="start",
                     bold=bool(on_front))
     return figure.svg()
 
@@ -136,9 +133,11 @@ def draw_curve(chart, method, color, points):
         figure.text(x + 10, y + 18, method, 14, color, "start", bold=True)
 
 
-# Scenes of the map of arrows: where its name stands beside the plan's end.
-ARROWS = ("elastic_gas", "cooling_gas", "pocket", "hub", "column", "heavy_on_light", "two_bodies",
-          "six_cubed", "six_cubed_elastic", "deep_pile", "mixed_radii", "bullet")
+# Scenes whose balls meet each other; and where a name stands, from the arrow's tip.
+ARROWS = {"elastic_gas": (10, 16), "cooling_gas": (8, 16), "pocket": (-10, 16), "hub": (10, 4),
+          "column": (10, 12), "heavy_on_light": (10, 4), "two_bodies": (10, -2),
+          "six_cubed": (0, -10), "six_cubed_elastic": (-8, -10), "deep_pile": (-6, -8),
+          "mixed_radii": (12, 26), "bullet": (4, -8)}
 HUES = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY)
 
 
@@ -147,12 +146,12 @@ def arrows(run):
     found = run("--scene", "every", "--device", "cpu")
     figure = Figure(900, 560, "Arrows from the original loop to the chosen plan, one a scene: nearly "
                     "all of them go up, most of them right as well")
-    chart = Chart(figure, (72, 44, 800, 450), (0, 7), (-6, 2))
+    chart = Chart(figure, (72, 44, 800, 450), (0, 7), (-5, 3))
     chart.axes("pair visits a simulated second: right is cheaper",
                "error / tolerance: up is better")
     figure.line(72, chart.y(1), 872, chart.y(1), INK, 1.5, "6 4")
     figure.text(80, chart.y(1) - 6, "good enough", 13, INK, "start")
-    for scene, color in zip(ARROWS, HUES * 2):
+    for (scene, (aside, down)), color in zip(ARROWS.items(), HUES * 2):
         ends = [found[f"{scene},_{loop},_numbers"] for loop in ("original_loop", "plan")]
         (x1, y1), (x2, y2) = [(chart.x(visits), chart.y(error / tolerance))
                               for visits, error, tolerance, _ in ends]
@@ -162,7 +161,8 @@ def arrows(run):
         else:
             figure.circle(x1, y1, 4, color, color)
         figure.arrow(x1, y1, x2, y2, color, 2, 10)
-        figure.text(x2 + 8, y2 + 4, scene, 13, color, "start", bold=True)
+        figure.text(x2 + aside, y2 + down, scene, 13, color, "end" if aside < 0 else "start",
+                    bold=True)
     return figure.svg()
 
 

@@ -5,7 +5,7 @@
 #include <omp.h>
 #endif
 
-namespace ballpit::test {
+namespace ballpit {
 
 /// Runs a scope on so many threads.
 class WithThreads {
@@ -23,4 +23,4 @@ private:
 #endif
 };
 
-}  // namespace ballpit::test
+}  // namespace ballpit
