@@ -6,10 +6,10 @@
 #include "12_speed_and_accuracy/plan_text.h"
 
 #include "common/error.h"
+#include "common/with_threads.h"
 #include "stability/metrics.h"
 #include "tests/plan_runs.h"
 #include "tests/plan_scenes.h"
-#include "tests/with_threads.h"
 
 using namespace ballpit;
 using stability::Question;
@@ -316,7 +316,7 @@ TEST_CASE("the facts of a scene are what it was made of, on every device and num
           "[plan]") {
     const Device device = GENERATE(from_range(test::devices()));
     CAPTURE(device);
-    Scene scene = test::emptyWorld(2.0f);
+    Scene scene = test::emptyWorld(3.0f);
     scene.gravity = {0, -10, 0};
     scene.spheres.add({0, 0, 0}, {3, 0, 4}, 1.0f, 2.0f, 0.25f);
     scene.spheres.add({1.5f, 0, 0}, {0, 0, 0}, 1.0f, 6.0f, 0.5f);
@@ -344,7 +344,7 @@ TEST_CASE("the facts of a scene are what it was made of, on every device and num
 TEST_CASE("facts are the same bits on one thread and on two", "[plan]") {
     const Scene scene = makeScene("gravity_fall", 5000, 1);
     const auto bits = [&](int threads) {
-        const test::WithThreads with(threads);
+        const WithThreads with(threads);
         const SceneFacts f = factsOf(scene, Device::cpu);
         return test::bitsOf(std::vector<float>{f.rmsSpeed, f.speedToCome, f.largestSpeed,
                                                f.deepestOverlap, f.massRatio, f.span.upper.y});
@@ -437,7 +437,7 @@ TEST_CASE("a tower that falls apart gets another plan, once, and the same bits e
           "[plan]") {
     const Scene scene = test::towerBlock();
     const auto onThreads = [&](int threads) {
-        const test::WithThreads with(threads);
+        const WithThreads with(threads);
         return follow(scene, Device::cpu, 900);
     };
     const PlannedRun one = onThreads(1), two = onThreads(2);
