@@ -2,9 +2,22 @@
 #pragma once
 
 #include "chapters/06_broad_phase/built_grid.cuh"
+#include "common/random.h"
 #include "tests/support.h"
 
 namespace ballpit::test {
+
+inline Spheres randomSpheres(int count, Bounds box, float smallest, float largest,
+                             std::uint64_t seed) {
+    Random random(seed);
+    Spheres spheres;
+    for (int k = 0; k < count; ++k) {
+        const Vec3 position = random.uniformIn(box);
+        const float radius = smallest + (largest - smallest) * random.uniform(0, 1);
+        spheres.add(position, {}, radius, 1.0f, 1.0f);
+    }
+    return spheres;
+}
 
 /// A grid built over spheres from the pieces of chapters 02 to 05, and what the search of chapter
 /// 06 finds in it.

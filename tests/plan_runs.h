@@ -6,10 +6,10 @@
 
 #include "12_speed_and_accuracy/planned_run.cuh"
 #include "12_speed_and_accuracy/tolerance.h"
+#include "common/with_threads.h"
 #include "stability/question.h"
 #include "stability/scenes.h"
 #include "tests/support.h"
-#include "tests/with_threads.h"
 
 namespace ballpit::test {
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "chapters/09_video_recording/contact_sheet.h"
 #include "common/error.h"
 #include "common/video_player.h"
 
@@ -15,8 +16,6 @@ struct Wishes {
     std::vector<std::pair<std::size_t, std::string>> frames;
     std::size_t posterFrame = 0;
 };
-
-constexpr int sheetColumns = 4, sheetRows = 3;
 
 /// Half as wide and high: each pixel is the mean of four.
 Frame halved(const Frame& frame) {
@@ -31,44 +30,6 @@ Frame halved(const Frame& frame) {
             }
     return half;
 }
-
-/// Frames at equal distances, first to last, row by row.
-class Sheet {
-public:
-    explicit Sheet(std::size_t frameCount) : frameCount_(frameCount) {}
-
-    bool wants(std::size_t number) const { return place(number) < frameCount_; }
-
-    void add(const Frame& frame) {
-        const Frame small = halved(halved(frame));
-        if (sheet_.width == 0)
-            sheet_ = {sheetColumns * small.width, sheetRows * small.height,
-                      std::vector<std::uint8_t>(small.rgb.size() * sheetColumns * sheetRows)};
-        const std::size_t rowBytes = 3 * static_cast<std::size_t>(small.width);
-        const std::size_t column = count_ % sheetColumns, row = count_ / sheetColumns;
-        for (std::size_t y = 0; y < static_cast<std::size_t>(small.height); ++y)
-            std::copy_n(
-                small.rgb.data() + y * rowBytes, rowBytes,
-                sheet_.rgb.data() +
-                    ((row * static_cast<std::size_t>(small.height) + y) * sheetColumns + column) *
-                        rowBytes);
-        ++count_;
-    }
-
-    const Frame& picture() const { return sheet_; }
-
-private:
-    /// Which of the sheet's pictures is this frame? None: frameCount_.
-    std::size_t place(std::size_t number) const {
-        constexpr std::size_t last = sheetColumns * sheetRows - 1;
-        for (std::size_t k = 0; k <= last; ++k)
-            if (number == k * (frameCount_ - 1) / last) return k;
-        return frameCount_;
-    }
-
-    std::size_t frameCount_, count_ = 0;
-    Frame sheet_;
-};
 
 void tell(const Video& video) {
     const nlohmann::ordered_json facts{
@@ -85,23 +46,24 @@ int look(const Wishes& wishes) {
         return [number](const auto& frame) { return frame.first == number; };
     };
     const Video facts = watchVideo(wishes.video, {}, [](std::size_t) { return false; });
-    Sheet sheet(wishes.sheet.empty() ? 0 : facts.times.size());
     std::size_t number = 0;
     const auto wanted = [&](std::size_t k) {
         number = k;
-        return (!wishes.sheet.empty() && sheet.wants(k)) ||
-               (!wishes.poster.empty() && k == wishes.posterFrame) ||
+        return (!wishes.poster.empty() && k == wishes.posterFrame) ||
                std::ranges::any_of(wishes.frames, isFrame(k));
     };
     const auto take = [&](const Frame& frame) {
-        if (!wishes.sheet.empty() && sheet.wants(number)) sheet.add(frame);
         if (!wishes.poster.empty() && number == wishes.posterFrame)
             writePng(wishes.poster, halved(frame));
         for (const auto& [k, path] : wishes.frames)
             if (k == number) writePng(path, frame);
     };
     watchVideo(wishes.video, take, wanted);
-    if (!wishes.sheet.empty()) writePng(wishes.sheet, sheet.picture());
+    if (!wishes.sheet.empty()) {
+        Frame sheet;
+        playOntoSheet(wishes.video, static_cast<int>(facts.times.size()), sheet);
+        writePng(wishes.sheet, sheet);
+    }
     tell(facts);
     return exitOk;
 }

@@ -5,6 +5,6 @@ cd "$(dirname "$0")/.."
 build=${1:?usage: tools/tidy.sh BUILD_FOLDER}
 git ls-files 'common/*.cpp' 'common/*.cu' 'solutions/*.cpp' 'bench/*.cpp' 'bench/*.cu' 'chapters/*.cu' \
     'tests/checks/*.cpp' 'tests/test_truth_*.cpp' 'truth/*.cpp' \
-    'stability/*.cpp' 'stability/*.cu' 'tests/test_stability_*.cpp' 'chart/peers/*.cpp' |
+    'stability/*.cpp' 'stability/*.cu' 'tests/test_stability_*.cpp' 'chart/*.cpp' 'chart/*.cu' |
     grep -v without_ |
     xargs -P 2 -n 2 clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "03_sort/sort.cuh"
 #include "06_broad_phase/broad_phase.cuh"
@@ -27,21 +28,22 @@ public:
         : settings_(checked(settings)),
           count_(settings.objects),
           bodies_(settings.device, static_cast<std::size_t>(count_)),
-          grid_(settings.device, gridBounds(settings), settings.cellSize, count_),
+          grid_(settings.device, gridBounds(settings_), settings_.cellSize, count_),
           pairs_(settings.device, static_cast<std::size_t>(count_), settings.firstPairCapacity()),
           response_(makeResponse(settings_)),
           status_(settings.device),
           scratch_(settings.device, 0, "scratch"),
           timer_(settings.device) {
         timer_.enable(settings.timeStages);
-        // Before it is built for the first time, the grid holds nobody.
-        grid_.cellEnds.fill(0);
-        grid_.sortedHashes.fill(0);
+        prepareGrid();
     }
 
     RigidBodySystem& bodies() { return bodies_; }
     const SimulatorSettings& settings() const { return settings_; }
     const UniformGrid& grid() const { return grid_; }
+
+    /// True if bodies are sorted into cells; false if one cell holds them all, in any order.
+    bool sortsBodies() const { return settings_.broadPhase == BroadPhaseMethod::grid; }
 
     /// Device bytes in use, and what will be in use before anything has grown.
     std::size_t bytes() const {
@@ -50,7 +52,7 @@ public:
     static std::size_t predictedBytes(const SimulatorSettings& s) {
         const auto count = static_cast<std::size_t>(s.objects);
         return RigidBodySystem::predictedBytes(count) +
-               UniformGrid::predictedBytes(gridBounds(s), s.cellSize, count) +
+               UniformGrid::predictedBytes(gridBounds(s), withCells(s).cellSize, count) +
                PairList::predictedBytes(count, s.firstPairCapacity()) + predictedResponseBytes(s);
     }
 
@@ -109,6 +111,16 @@ public:
     }
 
 protected:
+    /// Takes other settings for the same bodies in the same world: a new grid and a new response.
+    void adopt(const SimulatorSettings& settings) {
+        requireSensible(settings);
+        settings_ = completedSettings(settings);
+        grid_ = UniformGrid(settings_.device, settings_.bounds, settings_.cellSize, count_);
+        prepareGrid();
+        response_ = makeResponse(settings_);
+        response_->reserve(pairs_.pairs.count());
+    }
+
     SimulatorSettings settings_;
     int count_;
     RigidBodySystem bodies_;
@@ -122,11 +134,27 @@ protected:
 private:
     /// The settings, once they are known to make sense and to fit the device's memory; the knobs
     /// left empty have the response's own values.
-    static SimulatorSettings checked(SimulatorSettings s) {
+    static SimulatorSettings checked(const SimulatorSettings& s) {
         requireSensible(s);
         requireMemory(predictedBytes(s), s);
+        return completedSettings(s);
+    }
+    static SimulatorSettings completedSettings(SimulatorSettings s) {
         static_cast<ResponseKnobs&>(s) = completed(s.response, s, length(s.gravity), s.dt);
+        return withCells(s);
+    }
+    static SimulatorSettings withCells(SimulatorSettings s) {
+        if (s.broadPhase == BroadPhaseMethod::naive) s.cellSize = oneCellForAll;
         return s;
+    }
+
+    /// Before it is built for the first time, a grid holds nobody; one cell for all holds
+    /// everybody, for ever.
+    void prepareGrid() {
+        grid_.cellStarts.fill(0);
+        grid_.cellEnds.fill(0);
+        grid_.sortedHashes.fill(0);
+        if (!sortsBodies()) grid_.cellEnds.upload(std::vector{static_cast<std::uint32_t>(count_)});
     }
 };
 

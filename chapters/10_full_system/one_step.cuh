@@ -19,8 +19,10 @@ inline std::size_t otherWorkingCopy(std::size_t committed, std::size_t inUse) {
     // ---- end of system.copies
 }
 
-/// Builds the grid; the bodies go to the working copies that are free, which are returned.
+/// Builds the grid; the bodies go to the working copies that are free, which are returned. With one
+/// cell for all there is nothing to build, and the bodies stay where they are.
 inline Copies sortInto(EngineStages& stages, Copies committed, Copies now) {
+    if (!stages.sortsBodies()) return now;
     const Copies sorted{otherWorkingCopy(committed.moving, now.moving),
                         otherWorkingCopy(committed.fixed, now.fixed)};
     stages.buildGrid(now, sorted);

@@ -40,6 +40,39 @@ public:
     /// Does all of a step's work, but keeps the state from before it. For measuring.
     StepStats rehearseStep() { return attemptUntilComplete(); }
 
+    /// Goes on with other settings from the next step on. Number of bodies, world and device must
+    /// be those there are; the bodies stay as they are. InputError as from the constructor.
+    void change(const SimulatorSettings& settings) {
+        adopt(settings);
+        forgetRecordings();
+        rebuildUntil_ = 0;
+    }
+
+    /// All touching pairs of the bodies as they are, and the bodies in the same order: what can be
+    /// read about a state without changing it. `counts` is memory to work in: before the first use,
+    /// counts[i] says how many of the pairs have body i as their first. All of it is good until the
+    /// next step.
+    struct Survey {
+        BodiesView bodies;
+        PairsView pairs;
+        View<std::uint32_t> counts;
+    };
+    Survey survey() {
+        const Copies from = bodies_.state();
+        for (;;) {
+            beginReport();
+            hash(from);
+            const Copies sorted = sortInto(*this, from, from);
+            detectCollisions(sorted);
+            sendReport();
+            const StepStatus status = status_.wait();
+            requireCountable(status);
+            if (status.pairsNeeded <= pairs_.pairs.count())
+                return {bodies_.view(sorted), pairs_.view(), pairs_.counts.view()};
+            growPairList(status.pairsNeeded);
+        }
+    }
+
     /// Whether steps fill StepStats::stages from now on.
     void timeStages(bool on) {
         settings_.timeStages = on;
@@ -128,6 +161,7 @@ private:
             TODO_HOLE("system.rebuild");
             // ---- end of system.rebuild
             stats.collisions = status.collisions;
+            stats.listed = status.pairsNeeded;
             stats.outside = status.outside;
             break;
         }

@@ -70,6 +70,16 @@ void Canvas::rectangle(float x0, float y0, float x1, float y1, Vec3 color) {
     });
 }
 
+void arrow(Canvas& canvas, const Panel& panel, Vec3 from, Vec3 along, float head, Vec3 color) {
+    const Vec3 tip = from + along;
+    const float size = length(along);
+    if (!(size > 0.02f && size < 100.0f)) return;
+    const Vec3 back = (-head / size) * along, side{0.5f * back.y, -0.5f * back.x, 0};
+    for (const Vec3 start : {from, tip + back + side, tip + back - side})
+        canvas.line(panel.x(start.x), panel.y(start.y), panel.x(tip.x), panel.y(tip.y), 3.0f,
+                    color);
+}
+
 Frame threePanels(float worldX, float worldY, float side, int size,
                   const std::function<void(Canvas&, const Panel&, int)>& draw) {
     constexpr int gap = 12;

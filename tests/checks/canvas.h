@@ -40,6 +40,10 @@ struct Panel {
     float y(float worldY) const { return top + scale * (worldTop - worldY); }
 };
 
+/// An arrow in the plane of x and y; `along` and the length of its head in m. What is too short to
+/// be seen, or endless, is not drawn.
+void arrow(Canvas& canvas, const Panel& panel, Vec3 from, Vec3 along, float head, Vec3 color);
+
 /// Three panels of `size` pixels side by side for one square region of the world (lower corner,
 /// side in m): yours, reference, errors. `draw(canvas, panel, k)` draws panel k.
 Frame threePanels(float worldX, float worldY, float side, int size,

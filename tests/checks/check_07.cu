@@ -13,16 +13,6 @@ namespace {
 
 // ---- random scenes
 
-void arrow(Canvas& canvas, const Panel& panel, Vec3 from, Vec3 along, Vec3 color) {
-    const Vec3 tip = from + 0.9f * along;
-    const float size = length(along);
-    if (!(size > 0.02f && size < 100.0f)) return;
-    const Vec3 back = (-0.22f / size) * along, side{0.5f * back.y, -0.5f * back.x, 0};
-    for (const Vec3 start : {from, tip + back + side, tip + back - side})
-        canvas.line(panel.x(start.x), panel.y(start.y), panel.x(tip.x), panel.y(tip.y), 3.0f,
-                    color);
-}
-
 /// Velocities after the round: yours, the reference's, and where they differ both.
 Frame drawVelocities(const Example& scene, const Spheres& got, const Spheres& expected) {
     return threePanels(-2.9f, -2.9f, 5.8f, 300, [&](Canvas& canvas, const Panel& panel, int k) {
@@ -33,11 +23,11 @@ Frame drawVelocities(const Example& scene, const Spheres& got, const Spheres& ex
         for (std::size_t b = 0; b < got.count(); ++b) {
             const Vec3 p = scene.balls.positions[b], v = got.velocities[b];
             const bool right = length(v - expected.velocities[b]) < 1e-3f;
-            if (k == 0) arrow(canvas, panel, p, v, colors::ink);
-            if (k == 1) arrow(canvas, panel, p, expected.velocities[b], colors::ink);
+            if (k == 0) arrow(canvas, panel, p, 0.9f * v, 0.22f, colors::ink);
+            if (k == 1) arrow(canvas, panel, p, 0.9f * expected.velocities[b], 0.22f, colors::ink);
             if (k == 2 && !right) {
-                arrow(canvas, panel, p, expected.velocities[b], {0.5f, 0.5f, 0.53f});
-                arrow(canvas, panel, p, v, colors::red);
+                arrow(canvas, panel, p, 0.9f * expected.velocities[b], 0.22f, {0.5f, 0.5f, 0.53f});
+                arrow(canvas, panel, p, 0.9f * v, 0.22f, colors::red);
             }
         }
     });

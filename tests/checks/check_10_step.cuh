@@ -36,16 +36,6 @@ inline void begin(Report& report) {
                    }}});
 }
 
-inline void arrow(Canvas& canvas, const Panel& panel, Vec3 from, Vec3 along, Vec3 color) {
-    const Vec3 tip = from + along;
-    const float size = length(along);
-    if (!(size > 0.02f && size < 100.0f)) return;
-    const Vec3 back = (-0.18f / size) * along, side{0.5f * back.y, -0.5f * back.x, 0};
-    for (const Vec3 start : {from, tip + back + side, tip + back - side})
-        canvas.line(panel.x(start.x), panel.y(start.y), panel.x(tip.x), panel.y(tip.y), 3.0f,
-                    color);
-}
-
 /// The rows after the step: yours, the reference, and yours in red where it is elsewhere or flies
 /// otherwise.
 inline Frame drawRows(const Spheres& got, const Spheres& expected) {
@@ -60,11 +50,11 @@ inline Frame drawRows(const Spheres& got, const Spheres& expected) {
             const Vec3 p = got.positions[b], v = got.velocities[b];
             const bool right = length(p - expected.positions[b]) < 0.02f &&
                                length(v - expected.velocities[b]) < 1e-3f;
-            arrow(canvas, panel, shown.positions[b], seconds * shown.velocities[b],
+            arrow(canvas, panel, shown.positions[b], seconds * shown.velocities[b], 0.18f,
                   k < 2 ? colors::ink : colors::grey);
             if (k < 2 || right) continue;
             canvas.ring(panel.x(p.x), panel.y(p.y), panel.scale * 0.5f, 2.0f, colors::red);
-            arrow(canvas, panel, p, seconds * v, colors::red);
+            arrow(canvas, panel, p, seconds * v, 0.18f, colors::red);
         }
     });
 }

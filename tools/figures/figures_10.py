@@ -73,4 +73,5 @@ def draw_repeat(figure, y):
 
 
 FIGURES = {"flow": flow}
-PICTURES = {"gravity_fall": ["--frames", "130", "--width", "960", "--height", "540"]}
+PICTURES = {"gravity_fall": ["--plan", "original", "--frames", "130", "--width", "960",
+                             "--height", "540"]}
