@@ -17,12 +17,12 @@ int main(int argc, char** argv) {
         "--scene", asked.scenes,
         "scenes to chart (default: all, or a few with --quick): " + stability::questionNames());
     app.add_option("--method", asked.methods, "methods to chart (default: all)");
-    app.add_flag("--quick", asked.plan.quick, "fewer settings, scenes and runs");
+    app.add_flag("--quick", asked.sweep.quick, "fewer settings, scenes and runs");
     app.add_flag("--peers", asked.peers, "other engines as well, as far as this build has them");
     app.add_option("--device", device, "cuda or cpu")
         ->check(CLI::IsMember({"cuda", "cpu"}))
         ->capture_default_str();
-    app.add_option("--seed", asked.plan.seed, "of the scenes")->capture_default_str();
+    app.add_option("--seed", asked.sweep.seed, "of the scenes")->capture_default_str();
     app.add_option("--steps", asked.steps, "one point only: steps a frame (1/60 s in most scenes)")
         ->check(CLI::Range(0.1, 1000.0));
     app.add_option("--passes", asked.passes, "one point only: iterations or substeps a step")

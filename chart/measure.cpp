@@ -36,11 +36,11 @@ std::string labelOf(const Runner& runner, const Setting& setting, double dt) {
 }
 
 std::string commandOf(const Question& question, const Runner& runner, const Knobs& knobs,
-                      const Plan& plan) {
+                      const Sweep& sweep) {
     std::string command = std::string("./ballpit chart --scene ") + question.scene + " --method " +
                           runner.method() + " --steps " + shortNumber(knobs.stepsAFrame);
     if (knobs.passes > 0) command += " --passes " + std::to_string(knobs.passes);
-    return command + plan.further;
+    return command + sweep.further;
 }
 
 /// One sample: as many runs as it takes to be longer than noise. Nothing but a verdict if one
@@ -59,15 +59,15 @@ RunResult sample(const Question& question, Runner& runner, const Knobs& knobs, c
 
 /// Fills in the times of a row whose result is right.
 void timeRow(Row& row, const Question& question, Runner& runner, const Scene& scene,
-             const Plan& plan) {
+             const Sweep& sweep) {
     std::vector<double> times;
     double spent = 0;
     bool isWarm = false;
-    while (static_cast<int>(times.size()) < plan.runs) {
-        const bool isLong = spent > 1e3 * (plan.quick ? enoughQuickTime : enoughTime);
+    while (static_cast<int>(times.size()) < sweep.runs) {
+        const bool isLong = spent > 1e3 * (sweep.quick ? enoughQuickTime : enoughTime);
         if (isLong && static_cast<int>(times.size()) >= fewestRuns) break;
         if (StopRequest::received()) return;
-        const RunResult run = sample(question, runner, row.knobs, scene, plan.quick);
+        const RunResult run = sample(question, runner, row.knobs, scene, sweep.quick);
         if (run.verdict != Verdict::ok) {  // right the first time and wrong the second: a race
             row.verdict = name(run.verdict);
             return;
@@ -101,37 +101,37 @@ std::vector<Setting> settingsToTry(const Runner& runner, bool quick) {
 }
 
 Row emptyRow(const Question& question, const Runner& runner, const Setting& setting,
-             const Plan& plan) {
+             const Sweep& sweep) {
     Row row{.scene = question.scene, .engine = runner.engine(), .method = runner.method()};
     row.curve = setting.curve;
     row.knobs = setting.knobs;
-    row.dt = question.make(plan.seed).dt / setting.knobs.stepsAFrame;
+    row.dt = question.make(sweep.seed).dt / setting.knobs.stepsAFrame;
     row.passesName = runner.passesName();
     row.label = labelOf(runner, setting, row.dt);
     row.tolerance = question.tolerance;
-    row.command = commandOf(question, runner, setting.knobs, plan);
+    row.command = commandOf(question, runner, setting.knobs, sweep);
     return row;
 }
 
 std::optional<Row> measuredRow(const Question& question, Runner& runner, const Setting& setting,
-                               const Plan& plan) {
-    Row row = emptyRow(question, runner, setting, plan);
-    const Scene scene = question.make(plan.seed);
+                               const Sweep& sweep) {
+    Row row = emptyRow(question, runner, setting, sweep);
+    const Scene scene = question.make(sweep.seed);
     const auto meter = question.meter(scene, runner.movingStep(scene, setting.knobs));
     const RunResult run = runner.run(scene, setting.knobs, question.seconds, meter.get());
     const Verdict verdict = run.verdict != Verdict::ok ? run.verdict : meter->verdict();
     row.verdict = name(verdict);
     if (run.cost.simulatedSeconds > 0) row.pairVisits = run.cost.pairVisitsASecond();
     if (verdict != Verdict::notFinite && run.verdict == Verdict::ok) row.error = meter->error();
-    if (verdict == Verdict::ok) timeRow(row, question, runner, scene, plan);
+    if (verdict == Verdict::ok) timeRow(row, question, runner, scene, sweep);
     if (StopRequest::received()) return std::nullopt;
     return row;
 }
 
-double probe(const Question& question, Runner& runner, const Plan& plan) {
+double probe(const Question& question, Runner& runner, const Sweep& sweep) {
     constexpr double probeFrames = 8;
     constexpr int tries = 3;
-    const Scene scene = question.make(plan.seed);
+    const Scene scene = question.make(sweep.seed);
     double least = std::numeric_limits<double>::max();
     for (int k = 0; k < tries; ++k)
         least = std::min(least, runner.run(scene, runner.usual(), probeFrames * scene.dt, nullptr)
@@ -140,14 +140,14 @@ double probe(const Question& question, Runner& runner, const Plan& plan) {
 }
 
 double expectedSeconds(const Question& question, const Runner& runner, const Setting& setting,
-                       const Plan& plan, double millisecondsASecond) {
+                       const Sweep& sweep, double millisecondsASecond) {
     const Knobs usual = runner.usual();
     const double passes = std::max(1, setting.knobs.passes) / double(std::max(1, usual.passes));
     // Finding the pairs is about half of the work, and does not grow with the passes.
     const double work = setting.knobs.stepsAFrame / usual.stepsAFrame * (0.5 + 0.5 * passes);
     const double run = 1e-3 * millisecondsASecond * work * question.seconds;
-    const double least = 1e-3 * (plan.quick ? leastQuickSample : leastSample);
-    return 2 * run + (run > 1 ? fewestRuns : plan.runs + 1) * std::max(run, least);
+    const double least = 1e-3 * (sweep.quick ? leastQuickSample : leastSample);
+    return 2 * run + (run > 1 ? fewestRuns : sweep.runs + 1) * std::max(run, least);
 }
 
 }  // namespace ballpit::chart

@@ -6,7 +6,7 @@
 
 namespace ballpit::chart {
 
-struct Plan {
+struct Sweep {
     bool quick = false;
     std::uint64_t seed = 1;
     int runs = 5;         ///< timed
@@ -24,18 +24,18 @@ std::vector<Setting> settingsToTry(const Runner& runner, bool quick);
 
 /// What identifies the point, and nothing measured yet.
 Row emptyRow(const stability::Question& question, const Runner& runner, const Setting& setting,
-             const Plan& plan);
+             const Sweep& sweep);
 
 /// The whole point; nothing if the user stopped it.
 std::optional<Row> measuredRow(const stability::Question& question, Runner& runner,
-                               const Setting& setting, const Plan& plan);
+                               const Setting& setting, const Sweep& sweep);
 
 /// s: what the point will take, judging from a few frames of it at its usual setting that took
 /// `millisecondsASecond` for a simulated second.
 double expectedSeconds(const stability::Question& question, const Runner& runner,
-                       const Setting& setting, const Plan& plan, double millisecondsASecond);
+                       const Setting& setting, const Sweep& sweep, double millisecondsASecond);
 
 /// ms a simulated second at the usual setting, from a few frames.
-double probe(const stability::Question& question, Runner& runner, const Plan& plan);
+double probe(const stability::Question& question, Runner& runner, const Sweep& sweep);
 
 }  // namespace ballpit::chart

@@ -1,4 +1,6 @@
 // This engine's methods as runners, racy and atomic exhibits included.
+#include "12_speed_and_accuracy/planned_run.cuh"
+#include "12_speed_and_accuracy/tolerance.h"
 #include "chart/runner.h"
 #include "common/error.h"
 #include "common/timing.h"
@@ -18,6 +20,54 @@ public:
     double listedPairs() { return pairs_.starts.download().back(); }
     double passesAStep() const { return double(*settings_.iterations) * *settings_.substeps; }
 };
+
+/// A second thread for lists of pairs alone gains little, and loses all of it where another program
+/// wants a core, too.
+int threadsFor(const Scene& scene) {
+    return scene.spheres.count() < std::size_t(serialCount) ? 1 : cpuThreadCount();
+}
+
+/// What `run` returns, or the engine's own verdict.
+template <class Run>
+RunResult resultOf(Run run) {
+    try {
+        return run();
+    } catch (const InputError&) {
+        throw;
+    } catch (const CudaError&) {
+        throw;
+    } catch (const NotFiniteError&) {
+        return {.verdict = Verdict::notFinite};
+    } catch (const std::runtime_error&) {
+        return {.verdict = Verdict::overflow};
+    }
+}
+
+/// Makes all steps, with a meter or with a clock (Runner::run). `step(visits)` makes one and adds
+/// the pairs it visited to `visits`, if there is one.
+template <class Step>
+RunResult runSteps(CountedTrial& trial, const Scene& scene, const Knobs& knobs, double seconds,
+                   Meter* meter, Step step) {
+    RunResult result;
+    double* visits = meter ? &result.cost.pairVisits : nullptr;
+    trial.rehearseStep();  // allocates, and records a CUDA graph
+    synchronize(trial.settings().device);
+    const double start = milliseconds();
+    result.cost.simulatedSeconds = forEachStep(
+        scene, knobs, seconds, [&] { step(visits); },
+        [&](double time) {
+            if (meter) meter->add(trial.state(), time);
+            return !meter || !meter->hasFailed();
+        });
+    synchronize(trial.settings().device);
+    if (!meter) result.cost.milliseconds = milliseconds() - start;
+    return result;
+}
+
+void makeStep(CountedTrial& trial, double* visits) {
+    trial.step();
+    if (visits) *visits += trial.listedPairs() * trial.passesAStep();
+}
 
 class OurRunner : public Runner {
 public:
@@ -44,58 +94,59 @@ public:
     }
 
     RunResult run(const Scene& given, const Knobs& knobs, double seconds, Meter* meter) override {
-        // A second thread for lists of pairs alone gains little, and loses all of it where another
-        // program wants a core, too.
-        const WithThreads threads(
-            given.spheres.count() < std::size_t(serialCount) ? 1 : cpuThreadCount());
+        const WithThreads threads(threadsFor(given));
         Scene scene = given;
         // A spring and dashpot cannot stop a ball dead.
         for (float& e : scene.spheres.restitutions) e = std::max(e, stability::dullest(method_));
         scene.dt = static_cast<float>(given.dt / knobs.stepsAFrame);
         CountedTrial trial(scene, stability::settingsWith(scene, device_, method_, knobs.passes));
-        try {
-            return meter ? metered(trial, given, knobs, seconds, *meter)
-                         : timed(trial, given, knobs, seconds);
-        } catch (const InputError&) {
-            throw;
-        } catch (const CudaError&) {
-            throw;
-        } catch (const NotFiniteError&) {
-            return {.verdict = Verdict::notFinite};
-        } catch (const std::runtime_error&) {
-            return {.verdict = Verdict::overflow};
-        }
+        return resultOf([&] {
+            return runSteps(trial, given, knobs, seconds, meter,
+                            [&](double* visits) { makeStep(trial, visits); });
+        });
     }
 
 private:
-    static RunResult metered(CountedTrial& trial, const Scene& scene, const Knobs& knobs,
-                             double seconds, Meter& meter) {
-        RunResult result;
-        const auto step = [&] {
-            trial.step();
-            result.cost.pairVisits += trial.listedPairs() * trial.passesAStep();
-        };
-        const auto look = [&](double time) {
-            meter.add(trial.state(), time);
-            return !meter.hasFailed();
-        };
-        result.cost.simulatedSeconds = forEachStep(scene, knobs, seconds, step, look);
-        return result;
-    }
-
-    RunResult timed(CountedTrial& trial, const Scene& scene, const Knobs& knobs, double seconds) {
-        RunResult result;
-        trial.rehearseStep();  // allocates, and records a CUDA graph
-        synchronize(device_);
-        const double start = milliseconds();
-        result.cost.simulatedSeconds = forEachStep(
-            scene, knobs, seconds, [&] { trial.step(); }, [](double) { return true; });
-        synchronize(device_);
-        result.cost.milliseconds = milliseconds() - start;
-        return result;
-    }
-
     ResponseMethod method_;
+    Device device_;
+};
+
+/// What gravity_fall does by itself: the plan for the scene and its tolerance, made anew as the
+/// scene changes. Planning is part of its time.
+class PlannedRunner : public Runner {
+public:
+    explicit PlannedRunner(Device device) : device_(device) {}
+
+    std::string engine() const override { return "ballpit"; }
+    std::string method() const override { return "plan"; }
+    std::string passesName() const override { return ""; }
+    Knobs usual() const override { return {1, 0}; }
+    std::vector<double> stepsToTry() const override { return {}; }
+    std::string pointName(const Knobs&) const override { return "plan"; }
+
+    /// Of the plan that is made first.
+    double movingStep(const Scene& scene, const Knobs&) const override {
+        const Plan plan =
+            makePlan(factsOf(scene, device_), worldOf(scene), toleranceOf(scene.name));
+        return scene.dt / double(plan.stepsAFrame) / plan.knobs.substeps.value_or(1);
+    }
+
+    RunResult run(const Scene& scene, const Knobs& knobs, double seconds, Meter* meter) override {
+        const WithThreads threads(threadsFor(scene));
+        CountedTrial trial(scene,
+                           stability::settingsWith(scene, device_, ResponseMethod::massSplit));
+        return resultOf([&] {
+            Planner planner(trial, scene, toleranceOf(scene.name));
+            long frame = 0;
+            return runSteps(trial, scene, knobs, seconds, meter, [&](double* visits) {
+                if (frame > 0) planner.beforeFrame(frame);
+                ++frame;
+                for (int k = 0; k < planner.plan().stepsAFrame; ++k) makeStep(trial, visits);
+            });
+        });
+    }
+
+private:
     Device device_;
 };
 
@@ -105,6 +156,7 @@ Runners ourRunners(Device device) {
     Runners runners;
     for (const ResponseMethod method : stability::allMethods())
         runners.push_back(std::make_unique<OurRunner>(method, device));
+    runners.push_back(std::make_unique<PlannedRunner>(device));
     return runners;
 }
 

@@ -33,7 +33,7 @@ struct Point {
 std::vector<const Question*> questionsOf(const Asked& asked) {
     std::vector<const Question*> chosen;
     std::vector<std::string> names = asked.scenes;
-    if (names.empty() && asked.plan.quick)
+    if (names.empty() && asked.sweep.quick)
         names.assign(std::begin(quickScenes), std::end(quickScenes));
     for (const std::string& name : names) {
         const Question* found = &stability::question(name);
@@ -77,7 +77,7 @@ Runners allRunners(const Asked& asked) {
 
 /// The one setting of --steps and --passes, or all that are worth trying.
 std::vector<Setting> settingsOf(const Runner& runner, const Asked& asked) {
-    if (!asked.steps && !asked.passes) return settingsToTry(runner, asked.plan.quick);
+    if (!asked.steps && !asked.passes) return settingsToTry(runner, asked.sweep.quick);
     Knobs knobs = runner.usual();
     knobs.stepsAFrame = asked.steps.value_or(knobs.stepsAFrame);
     if (asked.passes && runner.passesName().empty())
@@ -102,20 +102,20 @@ std::string headOf(const Asked& asked) {
     std::string head;
     std::istringstream lines(asked.stamp);
     for (std::string line; std::getline(lines, line);) head += "# " + line + '\n';
-    return head + "# seed " + std::to_string(asked.plan.seed) + ", " + name(asked.device) +
-           (asked.plan.quick ? ", quick" : "") + '\n';
+    return head + "# seed " + std::to_string(asked.sweep.seed) + ", " + name(asked.device) +
+           (asked.sweep.quick ? ", quick" : "") + '\n';
 }
 
 /// Fills in what each point will take; s, of all that are not there yet.
-double expectAll(std::vector<Point>& points, const WorkingFile& file, const Plan& plan) {
+double expectAll(std::vector<Point>& points, const WorkingFile& file, const Sweep& sweep) {
     double sum = 0, millisecondsASecond = 0;
     const Point* probed = nullptr;
     for (Point& point : points) {
-        if (file.find(emptyRow(*point.question, *point.runner, point.setting, plan))) continue;
+        if (file.find(emptyRow(*point.question, *point.runner, point.setting, sweep))) continue;
         if (!probed || probed->question != point.question || probed->runner != point.runner)
-            millisecondsASecond = probe(*point.question, *point.runner, plan);
+            millisecondsASecond = probe(*point.question, *point.runner, sweep);
         probed = &point;
-        point.expected = expectedSeconds(*point.question, *point.runner, point.setting, plan,
+        point.expected = expectedSeconds(*point.question, *point.runner, point.setting, sweep,
                                          millisecondsASecond);
         sum += point.expected;
     }
@@ -163,9 +163,9 @@ void print(const Row& row) {
     std::printf("  pair visits a second  %.6g\n", row.pairVisits);
 }
 
-int printPoints(const std::vector<Point>& points, const Plan& plan) {
+int printPoints(const std::vector<Point>& points, const Sweep& sweep) {
     for (const Point& point : points) {
-        const auto row = measuredRow(*point.question, *point.runner, point.setting, plan);
+        const auto row = measuredRow(*point.question, *point.runner, point.setting, sweep);
         if (!row) return stoppedByUser;
         print(*row);
     }
@@ -180,7 +180,7 @@ int writeCharts(const Asked& asked, std::vector<Point> points) {
                      asked.out.c_str());
     if (!file.rows().empty())
         std::fprintf(stderr, "goes on: %zu points are there\n", file.rows().size());
-    const double expected = expectAll(points, file, asked.plan);
+    const double expected = expectAll(points, file, asked.sweep);
     std::fprintf(stderr, "%zu points, about %.0f s on an idle machine\n", points.size(),
                  std::ceil(expected));
     PointCounter counter(points.size(), expected);
@@ -188,12 +188,12 @@ int writeCharts(const Asked& asked, std::vector<Point> points) {
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Point& point = points[k];
         const Question& question = *point.question;
-        if (!file.find(emptyRow(question, *point.runner, point.setting, asked.plan))) {
-            const auto row = measuredRow(question, *point.runner, point.setting, asked.plan);
+        if (!file.find(emptyRow(question, *point.runner, point.setting, asked.sweep))) {
+            const auto row = measuredRow(question, *point.runner, point.setting, asked.sweep);
             if (!row) return stoppedByUser;
             file.append(*row);
         }
-        rows.push_back(*file.find(emptyRow(question, *point.runner, point.setting, asked.plan)));
+        rows.push_back(*file.find(emptyRow(question, *point.runner, point.setting, asked.sweep)));
         const bool endsScene = k + 1 == points.size() || points[k + 1].question != &question;
         counter.done(point, endsScene);
         if (!endsScene) continue;
@@ -227,15 +227,15 @@ int runChart(const Asked& given) {
         throw InputError("--device cuda: " + whyCudaIsUnusable());
     if (!std::filesystem::is_directory(asked.out))
         throw InputError("--out " + asked.out + ": is not a folder");
-    if (asked.plan.quick) asked.plan.runs = 3;
-    if (asked.device == Device::cuda) asked.plan.further += " --device cuda";
-    if (asked.plan.seed != 1) asked.plan.further += " --seed " + std::to_string(asked.plan.seed);
-    if (asked.peers) asked.plan.further += " --peers";
+    if (asked.sweep.quick) asked.sweep.runs = 3;
+    if (asked.device == Device::cuda) asked.sweep.further += " --device cuda";
+    if (asked.sweep.seed != 1) asked.sweep.further += " --seed " + std::to_string(asked.sweep.seed);
+    if (asked.peers) asked.sweep.further += " --peers";
     const Runners runners = allRunners(asked);
     const std::vector<Point> points = pointsOf(asked, runnersOf(asked, runners));
     if (points.empty()) throw InputError("none of these methods can run any of these scenes");
     const StopRequest stop;
-    if (asked.steps || asked.passes) return printPoints(points, asked.plan);
+    if (asked.steps || asked.passes) return printPoints(points, asked.sweep);
     return writeCharts(asked, points);
 }
 

@@ -7,7 +7,7 @@ namespace ballpit::chart {
 
 struct Asked {
     std::vector<std::string> scenes, methods;
-    Plan plan;
+    Sweep sweep;
     bool peers = false, printQuestions = false;
     Device device = Device::cpu;
     std::optional<double> steps;  ///< with `passes`: one point, which is printed and not written

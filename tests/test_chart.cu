@@ -2,6 +2,7 @@
 // an engine that does what the test wants.
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -248,6 +249,26 @@ TEST_CASE("what another run has left is not mixed in") {
     CHECK(file.replacedAnother());
     CHECK(file.rows().empty());
     CHECK(contentsOf(folder.part) == "# commit 2\n");
+}
+
+TEST_CASE(
+    "the plan is one point of a chart, within the scene's tolerance, below the original loop") {
+    const stability::Question& column = stability::question("column");
+    const Runners runners = ourRunners(Device::cpu);
+    const auto rowOf = [&](const std::string& method) {
+        const auto runner = std::find_if(runners.begin(), runners.end(),
+                                         [&](const auto& r) { return r->method() == method; });
+        REQUIRE(runner != runners.end());
+        const std::vector<Setting> settings = settingsToTry(**runner, true);
+        if (method == "plan") CHECK(settings.size() == 1);
+        return measuredRow(column, **runner, settings.front(), {.quick = true}).value();
+    };
+    const Row plan = rowOf("plan"), original = rowOf("mass-split");
+    CHECK(plan.label == "plan");
+    CHECK(original.label == "original loop");
+    CHECK(plan.error < column.tolerance);
+    CHECK(original.error > 2 * column.tolerance);
+    CHECK(plan.pairVisits > 0);
 }
 
 TEST_CASE("unknown scenes and methods are refused with the list") {

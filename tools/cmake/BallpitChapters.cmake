@@ -38,8 +38,8 @@ endfunction()
 # GRAPHICS: a build without graphics leaves the chapter out, and says so in the file left_out.
 # PRODUCT name: the solution's program is called so, NN_name_reference is another name for it, and
 # both programs have the window as well, the student's with the student's own studio.
-# LIBRARIES names...: what both programs need besides. SOURCES files...: those of the libraries that use
-# the piece; the student's program compiles them itself, with the student's piece.
+# LIBRARIES names: what both programs need besides. SOURCES files: those of the libraries that use the
+# piece; the student's program compiles them itself, with the student's piece.
 file(WRITE ${PROJECT_BINARY_DIR}/left_out "")
 function(ballpit_chapter folder)
     cmake_parse_arguments(PARSE_ARGV 1 chapter "STUDIO;GRAPHICS" "PRODUCT" "LIBRARIES;SOURCES")
