@@ -14,7 +14,8 @@ import time
 import unittest
 
 GRAVITY_FALL, BENCH = (os.path.abspath(path) for path in sys.argv[1:3])
-DUELS = os.path.join(os.path.dirname(GRAVITY_FALL), "11_stability_reference")
+DUELS, LOOPS = (os.path.join(os.path.dirname(GRAVITY_FALL), f"{chapter}_reference")
+                for chapter in ("11_stability", "12_speed_and_accuracy"))
 HEADER = "x,y,z,vx,vy,vz,radius,mass,restitution\n"
 
 
@@ -102,6 +103,9 @@ class BadOptions(Folder):
         self.refuses(["scene 'pillar'", "one of pocket, gas, column"], "--scene", "pillar",
                      program=DUELS)
         self.refuses(["shows one scene", "--scene"], "--png", "all.png", program=DUELS)
+        self.refuses(["scene 'pillar'", "column", "deep_pile"], "--scene", "pillar", program=LOOPS)
+        self.refuses(["'column'", "shows six_cubed"], "--scene", "column", "--png", "a.png",
+                     program=LOOPS)
 
     def test_wrong_cameras_colours_and_stills(self):
         for words, *arguments in [

@@ -21,6 +21,15 @@ inline Scene low666(std::uint64_t seed) {
     return scene;
 }
 
+/// InputError if another scene was asked for.
+inline void requireFilmed(const std::string& scene) {
+    const auto is666 = [&] {
+        return &stability::question(scene) == &stability::question("six_cubed");
+    };
+    if (scene != "few" && (scene == "every" || !is666()))
+        throw InputError("scene '" + scene + "': a picture or a film shows six_cubed here");
+}
+
 inline void film666(const Options& options) {
     filmDuel({.scene = "666",
               .make = low666,

@@ -8,6 +8,8 @@ using namespace ballpit;
 static int run(const Options& options) {
     Findings findings("12 speed and accuracy: the original loop, and what the plan chooses");
     const Questions questions = questionsNamed(options.scene);
+    const bool isShown = options.isFilmed() || !options.png.empty();
+    if (isShown) requireFilmed(options.scene);
     if (options.time) {
         tellSpeeds(findings, questions, options);
     } else {
@@ -17,7 +19,7 @@ static int run(const Options& options) {
         tellExample(findings);
     }
     findings.print(options.json);
-    if (options.isFilmed() || !options.png.empty()) film666(options);
+    if (isShown) film666(options);
     return 0;
 }
 
