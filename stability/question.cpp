@@ -93,12 +93,12 @@ std::string questionNames() {
     return names;
 }
 
-const Question& question(const std::string& scene) {
-    const std::string wanted = scene == "666" ? "six_cubed" : scene;
+const Question& question(std::string_view scene) {
+    const std::string_view wanted = scene == "666" ? "six_cubed" : scene;
     for (const Question& question : questions())
         if (question.scene == wanted) return question;
-    throw InputError("scene '" + scene + "': those with an error to chart are " + questionNames() +
-                     " (666 is six_cubed)");
+    throw InputError("scene '" + std::string(scene) + "': those with an error to chart are " +
+                     questionNames() + " (666 is six_cubed)");
 }
 
 }  // namespace ballpit::stability

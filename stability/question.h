@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "common/scene.h"
 #include "stability/map.h"
@@ -72,6 +73,6 @@ std::span<const Question> questions();
 std::string questionNames();
 
 /// By the scene's name; "666" is six_cubed. InputError, naming all, if there is none.
-const Question& question(const std::string& scene);
+const Question& question(std::string_view scene);
 
 }  // namespace ballpit::stability

@@ -91,10 +91,12 @@ TEST_CASE("every charted scene's plan meets its tolerance, and nothing that does
 
 namespace {
 
+using Threshold = double PlanThresholds::*;
+
 /// A threshold made larger or smaller, and the scene that shows it.
 struct Mutant {
     const char* what;
-    double PlanThresholds::*threshold;
+    Threshold threshold;
     double factor;
     const char* scene;
 };
