@@ -34,13 +34,13 @@ struct SmallStepView {
     float share;        ///< of an overlap, that a push takes away
 };
 
-HD inline void clearCorrection(int i, SmallStepView view) {
+HD inline void clearCorrection(int i, const SmallStepView& view) {
     view.corrections[i] = {0, 0, 0, view.round.from.velocities[i].w};
     view.wallsThatPushed[i] = 0;
 }
 
 /// Pair k: pushes its balls apart if they overlap where they are now.
-HD inline void pushApart(std::uint32_t k, SmallStepView view, bool firstPass) {
+HD inline void pushApart(std::uint32_t k, const SmallStepView& view, bool firstPass) {
     const BodiesView& bodies = view.round.from;
     const auto [a, b] = view.round.pairs.pairs[k];
     if (firstPass) view.pushes[k] = {};
@@ -72,7 +72,7 @@ HD inline std::uint32_t pushInside(float place, float& change, float lower, floa
 }
 
 /// The walls push body i back.
-HD inline void keepInside(int i, SmallStepView view, Bounds walls) {
+HD inline void keepInside(int i, const SmallStepView& view, Bounds walls) {
     const Vec4 sphere = view.round.from.positions[i];
     Vec4& change = view.corrections[i];
     const float r = sphere.w;
@@ -83,7 +83,7 @@ HD inline void keepInside(int i, SmallStepView view, Bounds walls) {
 }
 
 /// Body i's place, and its velocity from the way it made.
-HD inline void velocityFromPositions(int i, SmallStepView view, float h) {
+HD inline void velocityFromPositions(int i, const SmallStepView& view, float h) {
     const BodiesView &from = view.round.from, &to = view.round.to;
     const Vec4 sphere = from.positions[i], moving = from.velocities[i];
     const Vec3 change = xyz(view.corrections[i]), place = xyz(sphere) + change;
@@ -113,7 +113,8 @@ HD inline void applyImpulse(Vec3 impulse, Vec4& velocityA, Vec4& velocityB) {
 }
 
 /// Pair k, if it is lively: takes back the speed that came from its push. An impulse will do that.
-HD inline void takeBackPush(std::uint32_t k, SmallStepView view, SmallStepSettings settings) {
+HD inline void takeBackPush(std::uint32_t k, const SmallStepView& view,
+                            const SmallStepSettings& settings) {
     if (!isLively(k, view, settings.restitutionThreshold)) return;
     const auto [a, b] = view.round.pairs.pairs[k];
     // ---- hole small.take_back (about 2 lines): Minus the impulse that would have made the push in time h
@@ -133,7 +134,7 @@ HD inline float bouncedOffWall(float velocity, float before, std::uint32_t wall,
     return inwards * maximum(inwards * velocity, 0.0f);
 }
 
-HD inline void settleWalls(int i, SmallStepView view, float threshold) {
+HD inline void settleWalls(int i, const SmallStepView& view, float threshold) {
     const std::uint32_t walls = view.wallsThatPushed[i];
     if (walls == 0) return;
     const Vec4 before = view.round.from.velocities[i];
@@ -146,7 +147,7 @@ HD inline void settleWalls(int i, SmallStepView view, float threshold) {
 
 /// Pair k, if it pushed. A lively one gets chapter 07's impulse, if it still approaches. Another
 /// must not part faster than it did before the push.
-HD inline void settlePair(std::uint32_t k, SmallStepView view) {
+HD inline void settlePair(std::uint32_t k, const SmallStepView& view) {
     const Vec4 push = view.pushes[k];
     if (lengthSquared(xyz(push)) == 0.0f) return;
     const BodiesView& from = view.round.from;

@@ -14,7 +14,7 @@
 namespace ballpit {
 
 /// Pair k, in place. Racy, but for the colours.
-HD inline void resolvePair(std::uint32_t k, ResponseRound round, ContactRules rules) {
+HD inline void resolvePair(std::uint32_t k, const ResponseRound& round, ContactRules rules) {
     const BodiesView& bodies = round.to;
     const auto [a, b] = round.pairs.pairs[k];
     const NormalEffect effect = effectUnder(rules, a, b, bodies);

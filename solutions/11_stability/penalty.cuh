@@ -7,8 +7,8 @@
 //
 // The step must resolve the contact: t_c is 20 substeps, and more substeps make harder balls. Where
 // it fails: a ball of speed v sinks in by v t_c / pi, so a fast one passes through; and e is met to
-// some hundredths only, since a contact begins and ends within a substep. e = 0 would need a dashpot
-// without end, and is refused.
+// some hundredths only, since a contact begins and ends within a substep. e = 0 would need a
+// dashpot without end, and is refused.
 #pragma once
 
 #include "07_impulse_response/contact_lists.cuh"

@@ -58,7 +58,7 @@ HD inline float rememberedBy(std::uint32_t a, std::uint32_t b, const RememberedV
 
 /// Pair k: what it shall come to, and with what it begins. A pair that meets fast enough bounces;
 /// another may come as near as to touch.
-HD inline void beginPair(std::uint32_t k, WarmView view, RememberedView memory) {
+HD inline void beginPair(std::uint32_t k, const WarmView& view, const RememberedView& memory) {
     const BodiesView& bodies = view.motion.round.from;
     const auto [a, b] = view.motion.round.pairs.pairs[k];
     const Contact contact = contactBetween(a, b, bodies);
@@ -74,7 +74,7 @@ HD inline void beginPair(std::uint32_t k, WarmView view, RememberedView memory) 
 }
 
 /// Pair k gives what it gave in the step before.
-HD inline void warmStart(std::uint32_t k, WarmView view) {
+HD inline void warmStart(std::uint32_t k, const WarmView& view) {
     const float impulse = view.impulses[k];
     if (impulse == 0.0f) return;
     const auto [a, b] = view.motion.round.pairs.pairs[k];
@@ -84,7 +84,7 @@ HD inline void warmStart(std::uint32_t k, WarmView view) {
 }
 
 /// Pair k brings its bodies to the wanted speed, as far as its sum allows.
-HD inline void accumulate(std::uint32_t k, WarmView view) {
+HD inline void accumulate(std::uint32_t k, const WarmView& view) {
     const auto [a, b] = view.motion.round.pairs.pairs[k];
     Vec4 &velocityA = view.motion.round.to.velocities[a],
          &velocityB = view.motion.round.to.velocities[b];
@@ -117,7 +117,7 @@ HD inline void accumulateWall(float& velocity, float& sum, float came, float pla
     sum = side * after;
 }
 
-HD inline void accumulateWalls(int i, WarmView view) {
+HD inline void accumulateWalls(int i, const WarmView& view) {
     const BodiesView &from = view.motion.round.from, &to = view.motion.round.to;
     const Vec4 sphere = from.positions[i], came = from.velocities[i];
     Vec4 &velocity = to.velocities[i], &sum = view.wallChanges[i];
@@ -132,7 +132,7 @@ HD inline void accumulateWalls(int i, WarmView view) {
 }
 
 /// Body i starts with the velocity it came with and what the walls gave in the step before.
-HD inline void beginBody(int i, WarmView view, RememberedView memory) {
+HD inline void beginBody(int i, const WarmView& view, const RememberedView& memory) {
     const BodiesView &from = view.motion.round.from, &to = view.motion.round.to;
     const Vec4 sum = memory.walls[from.ids[i]], came = from.velocities[i];
     view.wallChanges[i] = sum;
@@ -140,7 +140,7 @@ HD inline void beginBody(int i, WarmView view, RememberedView memory) {
 }
 
 /// Body i goes where the changed velocity leads: a correction to where it went freely.
-HD inline void followVelocity(int i, WarmView view) {
+HD inline void followVelocity(int i, const WarmView& view) {
     const ResponseRound& round = view.motion.round;
     const Vec4 came = round.from.velocities[i];
     const Vec3 change = xyz(round.to.velocities[i]) - xyz(came);
@@ -149,7 +149,7 @@ HD inline void followVelocity(int i, WarmView view) {
 
 /// Body i's place, and what is to be remembered of its contacts. An impulse that made a bounce is
 /// not needed again.
-HD inline void finishBody(int i, WarmView view, RememberedView memory) {
+HD inline void finishBody(int i, const WarmView& view, const RememberedView& memory) {
     const ResponseRound& round = view.motion.round;
     const Vec4 sphere = round.from.positions[i];
     const Vec3 change = xyz(view.motion.corrections[i]), place = xyz(sphere) + change;
