@@ -148,8 +148,9 @@ class Chart:
         color, marker = self.styles[method]
         for k, (knob, rows) in enumerate(curves(self.rows, method).items()):
             xs = [row["real_time_factor"] for row in rows]
-            lows = [x - 1000 / row["ms_high"] for x, row in zip(xs, rows)]
-            highs = [1000 / row["ms_low"] - x for x, row in zip(xs, rows)]
+            # The file's digits are few: a bar of no length may come out below 0.
+            lows = [max(0, x - 1000 / row["ms_high"]) for x, row in zip(xs, rows)]
+            highs = [max(0, 1000 / row["ms_low"] - x) for x, row in zip(xs, rows)]
             self.axes.errorbar(xs, [self.y(row) for row in rows], xerr=(lows, highs), color=color,
                                marker=marker, markersize=6, linewidth=1.5, elinewidth=1,
                                linestyle="-" if k == 0 else ":", zorder=3,
