@@ -82,13 +82,13 @@ class Program(unittest.TestCase):
             result = run("--quick", "--scene", "pocket", "--method", "warm", "--method", "jacobi",
                          "--out", folder, "--stamp", "a machine, commit 1\nthe command")
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertRegex(result.stderr.splitlines()[0], r"^12 points, about \d+ s on an idle")
+            self.assertRegex(result.stderr.splitlines()[0], r"^14 points, about \d+ s on an idle")
             self.assertEqual(result.stdout.strip(), f"{folder}/chart_pocket.csv")
             self.assertEqual([f.name for f in Path(folder).iterdir()], ["chart_pocket.csv"])
             notes, rows = speed_chart.read(f"{folder}/chart_pocket.csv")
             self.assertEqual(notes[""], ["a machine, commit 1", "the command",
                                          "seed 1, cpu, quick"])
-            self.assertEqual(len(rows), 12)
+            self.assertEqual(len(rows), 14)
             self.assertEqual({row["verdict"] for row in rows if row["method"] == "jacobi"},
                              {"energy"})
             for row in rows:
@@ -128,8 +128,8 @@ class Program(unittest.TestCase):
             self.assertRegex(result.stderr.splitlines()[0], r"^goes on: \d+ points are there")
             self.assertEqual([f.name for f in Path(folder).iterdir()], ["chart_column.csv"])
             rows = speed_chart.read(f"{folder}/chart_column.csv")[1]
-            self.assertEqual(len({(r["method"], r["steps_a_frame"], r["passes"]) for r in rows}), 13)
-            self.assertEqual(len(rows), 13)
+            self.assertEqual(len({(r["method"], r["steps_a_frame"], r["passes"]) for r in rows}), 14)
+            self.assertEqual(len(rows), 14)
 
     def test_the_docs_have_the_table_of_questions_as_the_program_prints_it(self):
         table = run("--questions").stdout
