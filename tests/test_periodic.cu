@@ -220,7 +220,7 @@ TEST_CASE("a periodic box is refused with gravity, and to responses that need wa
     CHECK(test::contains(refusalOf(scene), "use gravity 0, or walls"));
 }
 
-TEST_CASE("--periodic makes any scene's world periodic", "[stability]") {
+TEST_CASE("the option --periodic makes any scene's world periodic", "[stability]") {
     Options options;
     options.scene = "elastic_gas";
     options.count = 343;
