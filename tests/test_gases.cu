@@ -82,7 +82,7 @@ std::vector<double> coolingAgainstHaff(Gas gas, double haffTimes) {
 TEST_CASE("coloured holds: an elastic gas obeys kinetic theory to a volume share of 0.4",
           "[stability]") {
     // Volume share; radii a step (rms), which must be small against the way between collisions.
-    // Mean free time over Enskog's: +0.9 %, +0.2 %, +1.2 %.
+    // Mean free time over Enskog's: +0.7 %, 0.0 %, +1.0 %.
     const auto [share, travel] =
         GENERATE(std::pair{0.05f, 0.1f}, std::pair{0.2f, 0.02f}, std::pair{0.4f, 0.02f});
     CAPTURE(share, travel);
