@@ -1,10 +1,10 @@
 // How long each stage takes, for scenes of growing size: `./ballpit bench`.
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "bench/bench.cuh"
 #include "bench/drop.cuh"
 #include "bench/frames.h"
+#include "common/cli.h"
 #include "common/error.h"
 
 using namespace ballpit;
@@ -35,14 +35,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1000));
     app.add_option("--rest", fall.rest, "with --drop: steps after the fall, untimed")
         ->check(CLI::Range(0, 100000));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-        std::cerr << "error: " << error.what() << " (--help shows the options)\n";
-        return exitBadInput;
-    }
+    if (const auto end = endAfterParsing(app, argc, argv)) return *end;
     plan.device = device == "cuda" ? Device::cuda : Device::cpu;
     return reportingErrors([&] {
         if (drop) {

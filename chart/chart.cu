@@ -1,7 +1,6 @@
 // ballpit_chart: speed against accuracy, as CSV: chart_SCENE.csv. `./ballpit chart` draws them.
-#include <CLI/CLI.hpp>
-
 #include "chart/run_chart.h"
+#include "common/cli.h"
 #include "common/error.h"
 
 using namespace ballpit;
@@ -31,14 +30,7 @@ int main(int argc, char** argv) {
     app.add_option("--stamp", asked.stamp, "lines for the files' head: machine, commit, command");
     app.add_flag("--questions", asked.printQuestions,
                  "print what each scene asks instead, as a Markdown table");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-        std::cerr << "error: " << error.what() << " (--help shows the options)\n";
-        return exitBadInput;
-    }
+    if (const auto end = endAfterParsing(app, argc, argv)) return *end;
     asked.device = device == "cuda" ? Device::cuda : Device::cpu;
     return reportingErrors([&] { return runChart(asked); });
 }

@@ -77,7 +77,7 @@ void addPlanOptions(CLI::App& app, Options& o) {
         ->check(CLI::IsMember({"auto", "original"}));
     app.add_option("--tolerance", o.tolerance,
                    "error that a plan may leave, as a share of a radius or of the energy "
-                   "(default: the scene's own, or 0.02)");
+                   "(default: the scene's own, or 0.05)");
     app.add_option_function<std::string>(
            "--broad-phase", [&o](const std::string& name) { o.allPairs = name == "naive"; },
            "grid (default), or naive: all balls with all")

@@ -1,9 +1,8 @@
 // ballpit_maps: where each response holds and where it fails, as CSV. `./ballpit maps` draws them.
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <iostream>
 
+#include "common/cli.h"
 #include "stability/catalogue.h"
 #include "stability/map_file.h"
 #include "stability/run_maps.cuh"
@@ -95,14 +94,7 @@ int main(int argc, char** argv) {
     app.add_option("--out", asked.out, "folder for the files")->capture_default_str();
     app.add_option("--stamp", asked.stamp, "lines for the files' head: machine, commit, command");
     app.add_flag("--scenes", asked.scenes, "print the table of scenes instead, as Markdown");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-        std::cerr << "error: " << error.what() << " (--help shows the options)\n";
-        return exitBadInput;
-    }
+    if (const auto end = endAfterParsing(app, argc, argv)) return *end;
     asked.options.device = device == "cuda" ? Device::cuda : Device::cpu;
     return reportingErrors([&] { return run(asked); });
 }

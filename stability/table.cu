@@ -1,11 +1,10 @@
 // ballpit_table: every scene of the catalogue under every method, one row each, every metric a
 // column. `./ballpit maps --table` calls it.
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
+#include "common/cli.h"
 #include "common/csv.h"
 #include "common/progress.h"
 #include "stability/run_table.cuh"
@@ -101,14 +100,7 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--out", asked.out, "folder for the files")->capture_default_str();
     app.add_option("--stamp", asked.stamp, "lines for the files' head: machine, commit, command");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-        std::cerr << "error: " << error.what() << " (--help shows the options)\n";
-        return exitBadInput;
-    }
+    if (const auto end = endAfterParsing(app, argc, argv)) return *end;
     asked.device = device == "cuda" ? Device::cuda : Device::cpu;
     return reportingErrors([&] { return run(asked); });
 }

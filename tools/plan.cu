@@ -1,12 +1,11 @@
 // ballpit_plan: the plan for a scene, and why. `./ballpit plan` calls it.
-#include <CLI/CLI.hpp>
-
 #include <iostream>
 #include <optional>
 
 #include "12_speed_and_accuracy/plan_text.h"
 #include "12_speed_and_accuracy/scene_facts.cuh"
 #include "12_speed_and_accuracy/tolerance.h"
+#include "common/cli.h"
 
 using namespace ballpit;
 
@@ -48,17 +47,10 @@ int main(int argc, char** argv) {
     app.add_option("--count", asked.count, "number of balls (default: the scene's own)");
     app.add_option("--tolerance", asked.tolerance,
                    "error that may be left, as a share of a radius or of the energy (default: the "
-                   "scene's own, or 0.02)");
+                   "scene's own, or 0.05)");
     app.add_option("--seed", asked.seed, "seed of the scene")->capture_default_str();
     app.add_flag("--explain", asked.explain, "tell the facts, and why each choice was made");
     app.add_flag("--json", asked.json, "print it as JSON");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-        std::cerr << "error: " << error.what() << " (--help shows the options)\n";
-        return exitBadInput;
-    }
+    if (const auto end = endAfterParsing(app, argc, argv)) return *end;
     return reportingErrors([&] { return run(asked); });
 }
