@@ -122,8 +122,8 @@ HD inline void notePairs(int lane, int lanes, int count, BodiesView bodies, Pair
             const std::uint32_t j = pairs.pairs[k].second;
             seen.massRatio = maximum(seen.massRatio,
                                      massRatioOf(bodies.velocities[i].w, bodies.velocities[j].w));
-            seen.deepestOverlap =
-                maximum(seen.deepestOverlap, overlapInRadii(bodies.positions[i], bodies.positions[j]));
+            seen.deepestOverlap = maximum(seen.deepestOverlap,
+                                          overlapInRadii(bodies.positions[i], bodies.positions[j]));
         }
     }
     notes[lane] = seen;
