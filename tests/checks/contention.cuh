@@ -1,7 +1,11 @@
 // Finds counts that are not atomic. Threads that count at the same time lose some, but only while
 // they really run at the same time, which a busy machine may not let them for a while. So each
-// launch also feeds a bait: a counter of our own that is not atomic. Once it has lost enough, a
-// counter of the student's that is wrong in the same way has lost some, too.
+// launch also feeds a bait: a counter of our own that is not atomic. Once it has lost some in
+// enough launches, a counter of the student's that is wrong in the same way has lost some, too.
+//
+// Launches are counted, and not what they lose: on a busy machine a thread that is interrupted
+// between reading and writing undoes all that others count meanwhile, though no two ever ran at the
+// same time. But that happens in one launch of a hundred at most.
 #pragma once
 
 #include <atomic>
@@ -47,16 +51,19 @@ struct Contention {
 /// busy machine that may take seconds; with one core it never happens.
 template <auto body, class... Args>
 Contention launchUntilContended(Device device, int count, Args... args) {
-    constexpr std::int64_t enoughLost = 1000;
+    constexpr int enoughLossy = 20, atLeastOneIn = 10;
     const double longest = device == Device::cuda || processorCount() > 1 ? 15000 : 0;  // ms
     const Threads threads(LaunchOrder::forward, 2);
     DeviceBuffer<std::uint32_t> bait(device, 1, "bait");
     bait.fill(0);
     const double start = milliseconds();
-    for (int launches = 1;; ++launches) {
+    std::uint32_t before = 0;
+    for (int launches = 1, lossy = 0;; ++launches) {
         launch<withBait<body, Args...>>(device, count, bait.view(), args...);
-        const std::int64_t lost = std::int64_t{launches} * count - bait.download()[0];
-        if (lost >= enoughLost) return {launches, true};
+        const std::uint32_t now = bait.download()[0];
+        lossy += now - before < static_cast<std::uint32_t>(count);
+        before = now;
+        if (lossy >= enoughLossy && atLeastOneIn * lossy >= launches) return {launches, true};
         if (milliseconds() - start > longest) return {launches, false};
     }
 }
