@@ -13,14 +13,6 @@ namespace {
 
 using stability::Trial;
 
-/// A trial that can say how long its pair list was.
-class CountedTrial : public Trial {
-public:
-    using Trial::Trial;
-    double listedPairs() { return pairs_.starts.download().back(); }
-    double passesAStep() const { return double(*settings_.iterations) * *settings_.substeps; }
-};
-
 /// A second thread for lists of pairs alone gains little, and loses all of it where another program
 /// wants a core, too.
 int threadsFor(const Scene& scene) {
@@ -46,7 +38,7 @@ RunResult resultOf(Run run) {
 /// Makes all steps, with a meter or with a clock (Runner::run). `step(visits)` makes one and adds
 /// the pairs it visited to `visits`, if there is one.
 template <class Step>
-RunResult runSteps(CountedTrial& trial, const Scene& scene, const Knobs& knobs, double seconds,
+RunResult runSteps(Trial& trial, const Scene& scene, const Knobs& knobs, double seconds,
                    Meter* meter, Step step) {
     RunResult result;
     double* visits = meter ? &result.cost.pairVisits : nullptr;
@@ -64,9 +56,9 @@ RunResult runSteps(CountedTrial& trial, const Scene& scene, const Knobs& knobs, 
     return result;
 }
 
-void makeStep(CountedTrial& trial, double* visits) {
-    trial.step();
-    if (visits) *visits += trial.listedPairs() * trial.passesAStep();
+void makeStep(Trial& trial, double* visits) {
+    const StepStats stats = trial.step();
+    if (visits) *visits += stability::visitsOf(stats, trial.settings());
 }
 
 class OurRunner : public Runner {
@@ -99,7 +91,7 @@ public:
         // A spring and dashpot cannot stop a ball dead.
         for (float& e : scene.spheres.restitutions) e = std::max(e, stability::dullest(method_));
         scene.dt = static_cast<float>(given.dt / knobs.stepsAFrame);
-        CountedTrial trial(scene, stability::settingsWith(scene, device_, method_, knobs.passes));
+        Trial trial(scene, stability::settingsWith(scene, device_, method_, knobs.passes));
         return resultOf([&] {
             return runSteps(trial, given, knobs, seconds, meter,
                             [&](double* visits) { makeStep(trial, visits); });
@@ -133,15 +125,11 @@ public:
 
     RunResult run(const Scene& scene, const Knobs& knobs, double seconds, Meter* meter) override {
         const WithThreads threads(threadsFor(scene));
-        CountedTrial trial(scene,
-                           stability::settingsWith(scene, device_, ResponseMethod::massSplit));
+        Trial trial(scene, stability::settingsWith(scene, device_, ResponseMethod::massSplit));
         return resultOf([&] {
             Planner planner(trial, scene, toleranceOf(scene.name));
-            long frame = 0;
             return runSteps(trial, scene, knobs, seconds, meter, [&](double* visits) {
-                if (frame > 0) planner.beforeFrame(frame);
-                ++frame;
-                for (int k = 0; k < planner.plan().stepsAFrame; ++k) makeStep(trial, visits);
+                planner.frame([&] { makeStep(trial, visits); });
             });
         });
     }

@@ -9,6 +9,7 @@
 #include "common/with_threads.h"
 #include "stability/question.h"
 #include "stability/scenes.h"
+#include "stability/trial.cuh"
 #include "tests/support.h"
 
 namespace ballpit::test {
@@ -106,22 +107,22 @@ Verdict overAll(const Starts& starts, double tolerance, const StillOf& goesOn, R
 inline Work workOfStep(PhysicsSimulator& simulator) {
     const StepStats stats = simulator.step();
     const SimulatorSettings& s = simulator.settings();
-    return {double(*s.substeps) * *s.iterations * stats.listed, double(*s.substeps) * s.objects};
+    return {stability::visitsOf(stats, s), double(*s.substeps) * s.objects};
 }
 
-/// Runs a start: `frame(simulator, k)` makes all steps of the k-th frame and returns their work.
+/// Runs a start: `frame(simulator)` makes all steps of a frame and returns their work.
 template <class Frame>
 Run runFrames(const Start& start, PhysicsSimulator& simulator, double dt, const StillOf& goesOn,
               Frame frame) {
     const WithThreads one(1);  // for so few balls a second thread costs more than it brings
     const auto meter = start.question->meter(start.scene, dt);
     const double length = start.scene.dt;
-    const int frames = static_cast<int>(std::ceil(start.seconds / length - 1e-6));
+    const long frames = stability::wholeSteps(start.seconds, length);
     Run run;
     try {
-        for (int k = 0; k < frames && !meter->hasFailed() && goesOn(run.work); ++k) {
-            run.work += frame(simulator, k);
-            meter->add(simulator.bodies().download(), (k + 1) * length);
+        for (long k = 1; k <= frames && !meter->hasFailed() && goesOn(run.work); ++k) {
+            run.work += frame(simulator);
+            meter->add(simulator.bodies().download(), static_cast<double>(k) * length);
         }
         run.failed = meter->hasFailed() || !goesOn(run.work);
         run.error = meter->error();
@@ -129,6 +130,12 @@ Run runFrames(const Start& start, PhysicsSimulator& simulator, double dt, const 
         run.failed = true;
     }
     return run;
+}
+
+/// The plan of a scene at its start.
+inline Plan planOf(const Scene& scene, double tolerance = usualTolerance,
+                   const PlanThresholds& thresholds = {}) {
+    return makePlan(factsOf(scene, Device::cpu), worldOf(scene), tolerance, thresholds);
 }
 
 inline bool always(Work) { return true; }
@@ -140,7 +147,7 @@ inline Run runWith(const Start& start, SimulatorSettings settings, int stepsAFra
     PhysicsSimulator simulator(settings);
     simulator.bodies().upload(start.scene.spheres);
     const double dt = settings.dt / static_cast<float>(*simulator.settings().substeps);
-    return runFrames(start, simulator, dt, goesOn, [&](PhysicsSimulator& s, int) {
+    return runFrames(start, simulator, dt, goesOn, [&](PhysicsSimulator& s) {
         Work work;
         for (int k = 0; k < stepsAFrame; ++k) work += workOfStep(s);
         return work;
@@ -154,10 +161,9 @@ inline Run runPlanned(const Start& start, double tolerance, const PlanThresholds
     simulator.bodies().upload(start.scene.spheres);
     Planner planner(simulator, start.scene, tolerance, thresholds);
     const double dt = simulator.settings().dt / static_cast<float>(*simulator.settings().substeps);
-    return runFrames(start, simulator, dt, goesOn, [&](PhysicsSimulator& s, int frame) {
-        if (frame > 0) planner.beforeFrame(frame);
+    return runFrames(start, simulator, dt, goesOn, [&](PhysicsSimulator& s) {
         Work work;
-        for (int k = 0; k < planner.plan().stepsAFrame; ++k) work += workOfStep(s);
+        planner.frame([&] { work += workOfStep(s); });
         return work;
     });
 }

@@ -56,20 +56,19 @@ public:
     }
 
     Answer after(double seconds) {
-        const long frames = std::lround(std::ceil(seconds / scene_.dt - 1e-6));
-        long frame = 0;
-        while (frame < frames && !meter_->hasFailed()) advance(frame++);
-        const double simulated = static_cast<double>(frame) * scene_.dt;
+        const long frames = stability::wholeSteps(seconds, scene_.dt);
+        long done = 0;
+        while (done < frames && !meter_->hasFailed()) advance(++done);
+        const double simulated = static_cast<double>(done) * scene_.dt;
         const std::string hash = hashText(stateHash(simulator_.bodies().download()));
         return {meter_->error(), visits_ / simulated, meter_->verdict(), settings_, hash};
     }
 
     /// ms that a simulated second takes. Nobody reads errors meanwhile.
     double millisecondsASecond(double seconds) {
-        const long frames = std::lround(std::ceil(seconds / scene_.dt - 1e-6));
+        const long frames = stability::wholeSteps(seconds, scene_.dt);
         double sum = 0;
-        for (long frame = 0; frame < frames; ++frame)
-            forEachStep(frame, [&](const StepStats& stats) { sum += stats.frameTimeMs; });
+        for (long k = 0; k < frames; ++k) makeFrame([&] { sum += simulator_.step().frameTimeMs; });
         return sum / (static_cast<double>(frames) * scene_.dt);
     }
 
@@ -81,21 +80,19 @@ private:
         return stability::settingsWith(scene, device, *loop.method, loop.passes);
     }
 
-    /// A frame's steps, each told to `look`.
-    template <class Look>
-    void forEachStep(long frame, Look look) {
-        if (planner_ && frame > 0) planner_->beforeFrame(frame);
-        const int steps = planner_ ? planner_->plan().stepsAFrame : stepsAFrame_;
-        for (int k = 0; k < steps; ++k) look(simulator_.step());
+    /// All of a frame's steps.
+    template <class Step>
+    void makeFrame(Step step) {
+        if (planner_)
+            planner_->frame(step);
+        else
+            for (int k = 0; k < stepsAFrame_; ++k) step();
     }
 
     void advance(long frame) {
-        forEachStep(frame, [&](const StepStats& stats) {
-            const ResponseKnobs& knobs = simulator_.settings();
-            const int passes = knobs.iterations.value_or(1) * knobs.substeps.value_or(1);
-            visits_ += double(passes) * stats.listed;
-        });
-        meter_->add(simulator_.bodies().download(), static_cast<double>(frame + 1) * scene_.dt);
+        makeFrame(
+            [&] { visits_ += stability::visitsOf(simulator_.step(), simulator_.settings()); });
+        meter_->add(simulator_.bodies().download(), static_cast<double>(frame) * scene_.dt);
     }
 
     Scene scene_;

@@ -60,10 +60,12 @@ public:
 
     /// Moves the scene by a frame; counts what there was to count.
     StepStats frame(Summary& summary) {
-        followScene(summary.steps);
-        const int steps = planner_ ? planner_->plan().stepsAFrame : 1;
         StepStats whole;
-        for (int k = 0; k < steps; ++k) addTo(whole, simulator_.step(), summary);
+        const auto step = [&] { addTo(whole, simulator_.step(), summary); };
+        if (!planner_)
+            step();
+        else if (const std::optional<std::string> change = planner_->frame(step))
+            std::cerr << *change << std::endl;
         ++summary.steps;
         summary.millisecondsPerStep +=
             (whole.frameTimeMs - summary.millisecondsPerStep) / summary.steps;
@@ -89,12 +91,6 @@ private:
         settings.broadPhase = options.allPairs ? BroadPhaseMethod::naive : BroadPhaseMethod::grid;
         static_cast<ResponseKnobs&>(settings) = options.knobs;
         return settings;
-    }
-
-    void followScene(int frame) {
-        if (!planner_ || frame == 0) return;
-        if (const std::optional<std::string> change = planner_->beforeFrame(frame))
-            std::cerr << *change << std::endl;
     }
 
     static void addTo(StepStats& whole, StepStats step, Summary& summary) {

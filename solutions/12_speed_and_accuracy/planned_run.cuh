@@ -33,21 +33,29 @@ public:
     double milliseconds() const { return milliseconds_; }  ///< of wall time, spent on planning
     int readings() const { return readings_; }
 
-    /// To be called before each frame but the first. When it is time, reads the facts again. If
-    /// they ask for other settings, changes to these and says what they are.
-    std::optional<std::string> beforeFrame(long frame) {
-        if (frame % framesBetweenReadings != 0) return std::nullopt;
+    /// Makes a frame: calls step() as often as the plan says. Before, when it is time, reads the
+    /// facts again; if they ask for other settings, changes to these and says what they are.
+    template <class Step>
+    std::optional<std::string> frame(Step step) {
+        std::optional<std::string> change;
+        if (frames_ > 0 && frames_ % framesBetweenReadings == 0) change = readAgain();
+        ++frames_;
+        for (int k = 0; k < plan_.stepsAFrame; ++k) step();
+        return change;
+    }
+
+private:
+    std::optional<std::string> readAgain() {
         const Timing timing(*this);
         const Plan next =
             makePlan(reader_.read(simulator_), world_, tolerance_, thresholds_, &plan_);
         if (sameSettings(next, plan_)) return std::nullopt;
-        const std::string line = "frame " + std::to_string(frame) + ": " + inShort(plan_) + " -> " +
-                                 inShort(next) + " (" + reasonOf(next) + ")";
+        const std::string line = "frame " + std::to_string(frames_) + ": " + inShort(plan_) +
+                                 " -> " + inShort(next) + " (" + reasonOf(next) + ")";
         adopt(next);
         return line;
     }
 
-private:
     /// Adds the time of its own life to the planner's.
     class Timing {
     public:
@@ -84,6 +92,7 @@ private:
     PlanThresholds thresholds_;
     FactReader reader_;
     Plan plan_;
+    long frames_ = 0;
     double milliseconds_ = 0;
     int readings_ = 0;
 };
