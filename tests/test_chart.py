@@ -21,6 +21,7 @@ sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tools" / "figures"), str(ROOT /
 
 import page
 import speed_chart
+from refusal import assert_refused
 from workbook import chart as chart_command
 from workbook.errors import InputError
 
@@ -64,10 +65,7 @@ class Program(unittest.TestCase):
     def refuses(self, words, *arguments):
         with tempfile.TemporaryDirectory() as folder:
             result = run(*([] if "--out" in arguments else ["--out", folder]), *arguments)
-            self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
-            for word in words:
-                self.assertIn(word, result.stderr)
+            assert_refused(self, result, words)
             self.assertEqual(list(Path(folder).iterdir()), [])
 
     def test_unknown_scenes_methods_options_and_folders_are_refused(self):

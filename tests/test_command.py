@@ -13,6 +13,8 @@ import tempfile
 import time
 import unittest
 
+from refusal import assert_refused
+
 GRAVITY_FALL, BENCH = (os.path.abspath(path) for path in sys.argv[1:3])
 DUELS, LOOPS = (os.path.join(os.path.dirname(GRAVITY_FALL), f"{chapter}_reference")
                 for chapter in ("11_stability", "12_speed_and_accuracy"))
@@ -40,13 +42,8 @@ class Folder(unittest.TestCase):
         return sorted(os.listdir(self.folder))
 
     def refuses(self, words, *arguments, before=(), **options):
-        """Exit code 2, one line on stderr with all `words`, no file that was not there `before`."""
-        result = self.run_program(*arguments, **options)
-        self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
-        self.assertTrue(result.stderr.startswith("error: "), result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
+        """Refused with all `words`, and no file that was not there `before`."""
+        assert_refused(self, self.run_program(*arguments, **options), words)
         self.assertEqual(self.files(), sorted(before))
 
     def has_graphics(self):
