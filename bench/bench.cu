@@ -12,10 +12,8 @@ using namespace ballpit;
 int main(int argc, char** argv) {
     CLI::App app{"Times the engine: each stage's median ms, by scene and number of balls."};
     BenchPlan plan;
-    std::string device = name(defaultDevice());
-    app.add_option("--device", device, "cuda or cpu")
-        ->check(CLI::IsMember({"cuda", "cpu"}))
-        ->capture_default_str();
+    plan.device = defaultDevice();
+    addDevice(app, plan.device);
     app.add_option("--counts", plan.counts,
                    "numbers of balls (default: 1 k to 1 M on a CPU, "
                    "1 k to 8 M on a GPU)");
@@ -36,7 +34,6 @@ int main(int argc, char** argv) {
     app.add_option("--rest", fall.rest, "with --drop: steps after the fall, untimed")
         ->check(CLI::Range(0, 100000));
     if (const auto end = endAfterParsing(app, argc, argv)) return *end;
-    plan.device = device == "cuda" ? Device::cuda : Device::cpu;
     return reportingErrors([&] {
         if (drop) {
             fall.device = plan.device;

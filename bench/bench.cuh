@@ -206,7 +206,7 @@ inline StepRow timeSteps(const Scene& scene, const BenchPlan& plan, double bandw
 }
 
 inline void runBench(BenchPlan plan) {
-    if (plan.device == Device::cuda && !cudaUsable()) throw InputError(whyCudaIsUnusable());
+    requireUsable(plan.device);
     if (plan.counts.empty()) {
         plan.counts = {1000, 16384, 131072, 1000000};
         if (plan.device == Device::cuda) plan.counts.push_back(8000000);

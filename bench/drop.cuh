@@ -73,7 +73,7 @@ inline void printDrop(const Scene& scene, const SimulatorSettings& settings, con
 }
 
 inline void runDropBench(const DropPlan& plan) {
-    if (plan.device == Device::cuda && !cudaUsable()) throw InputError(whyCudaIsUnusable());
+    requireUsable(plan.device);
     std::printf(
         "Balls of r 0.5 m dropped into a box, small-steps, %s, %d steps of 1/60 s, median "
         "of %d runs%s.\n"

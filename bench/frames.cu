@@ -4,14 +4,13 @@
 #include <GL/glew.h>
 
 #include <cstdio>
-#include <fstream>
 
 #include "08_sphere_rendering/sphere_renderer.h"
 #include "10_full_system/physics_simulator.cuh"
-#include "common/csv.h"
 #include "common/offscreen_context.h"
 #include "common/shared_vertices.h"
 #include "common/timing.h"
+#include "common/whole_file.h"
 
 namespace ballpit {
 
@@ -89,10 +88,9 @@ void runFramesBench(const FramesPlan& plan) {
         }
     }
     if (plan.csv.empty()) return;
-    std::ofstream(plan.csv) << "# ./ballpit bench --frames; physics: " << describe(plan.device)
-                            << "; OpenGL: " << card << "; medians of " << plan.repeats
-                            << " frames\n"
-                            << table;
+    writeWhole(plan.csv, "# ./ballpit bench --frames; physics: " + describe(plan.device) +
+                             "; OpenGL: " + card + "; medians of " + std::to_string(plan.repeats) +
+                             " frames\n" + table);
 }
 
 }  // namespace ballpit

@@ -2,10 +2,9 @@
 #include "bench/report.h"
 
 #include <cstdio>
-#include <filesystem>
-#include <stdexcept>
 
-#include "common/csv.h"
+#include "common/whole_file.h"
+#include "common/words.h"
 
 namespace ballpit {
 
@@ -68,15 +67,13 @@ void BenchReport::finish() {
 }
 
 void BenchReport::writeCsv() const {
-    const std::string part = csvPath_ + ".part";
-    std::FILE* file = std::fopen(part.c_str(), "w");
-    if (!file) throw std::runtime_error(csvPath_ + ": cannot be written");
-    std::fprintf(file, "# %s, copies %.1f GB/s\n", describe(device_).c_str(), 1e-9 * bandwidth_);
-    std::fprintf(file, "device,scene,balls,what,value\n");
+    char copies[64];
+    std::snprintf(copies, sizeof copies, ", copies %.1f GB/s\n", 1e-9 * bandwidth_);
+    std::string text = "# " + describe(device_) + copies + "device,scene,balls,what,value\n";
     const auto put = [&](const std::string& scene, std::size_t balls, const std::string& what,
                          double value) {
-        std::fprintf(file, "%s,%s,%zu,%s,%.6g\n", name(device_), scene.c_str(), balls, what.c_str(),
-                     value);
+        text += std::string(name(device_)) + ',' + scene + ',' + std::to_string(balls) + ',' +
+                what + ',' + withDigits(value) + '\n';
     };
     for (const SearchRow& row : searches_) {
         put(row.scene, row.balls, "pairs per ball", row.pairsPerBall);
@@ -93,10 +90,7 @@ void BenchReport::writeCsv() const {
         for (const StageTime& stage : row.stages)
             put(row.scene, row.balls, stage.stage + " ms", stage.milliseconds);
     }
-    const bool complete = std::ferror(file) == 0;
-    if (std::fclose(file) != 0 || !complete)
-        throw std::runtime_error(csvPath_ + ": writing failed (disk full?)");
-    std::filesystem::rename(part, csvPath_);
+    writeWhole(csvPath_, text);
 }
 
 }  // namespace ballpit

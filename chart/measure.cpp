@@ -2,10 +2,10 @@
 #include "chart/measure.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "common/progress.h"
 #include "common/timing.h"
+#include "common/words.h"
 
 namespace ballpit::chart {
 
@@ -20,11 +20,7 @@ constexpr double enoughTime = 10, enoughQuickTime = 1;
 constexpr int fewestRuns = 3;
 constexpr double longEnoughToWarm = 500;  ///< ms
 
-std::string shortNumber(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
+std::string shortNumber(double value) { return withDigits(value, 3); }
 
 std::string labelOf(const Runner& runner, const Setting& setting, double dt) {
     const std::string name = runner.pointName(setting.knobs);

@@ -1,10 +1,10 @@
 // Rows as text, and which of them are on the front.
 #include "chart/row.h"
 
-#include <cstdio>
 #include <cstdlib>
 
 #include "12_speed_and_accuracy/pareto_front.h"
+#include "common/words.h"
 
 namespace ballpit::chart {
 
@@ -16,12 +16,6 @@ const char* const rowHeader =
 namespace {
 
 constexpr std::size_t fieldCount = 21;
-
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
 
 /// Quoted where it must be.
 std::string field(const std::string& text) {
@@ -49,19 +43,19 @@ std::string lineOf(const Row& r) {
                                   r.engine,
                                   r.method,
                                   r.curve,
-                                  number(r.knobs.stepsAFrame),
-                                  number(r.dt),
+                                  withDigits(r.knobs.stepsAFrame),
+                                  withDigits(r.dt),
                                   std::to_string(r.knobs.passes),
                                   r.passesName,
                                   r.label,
-                                  number(r.error),
-                                  number(r.tolerance),
+                                  withDigits(r.error),
+                                  withDigits(r.tolerance),
                                   r.verdict,
-                                  number(r.milliseconds.median),
-                                  number(r.milliseconds.low),
-                                  number(r.milliseconds.high),
-                                  number(r.realTimeFactor()),
-                                  number(r.pairVisits),
+                                  withDigits(r.milliseconds.median),
+                                  withDigits(r.milliseconds.low),
+                                  withDigits(r.milliseconds.high),
+                                  withDigits(r.realTimeFactor()),
+                                  withDigits(r.pairVisits),
                                   std::to_string(r.runs),
                                   r.onFront ? "yes" : "no",
                                   r.onFrontOfVisits ? "yes" : "no",

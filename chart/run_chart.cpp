@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -13,6 +12,7 @@
 #include "common/progress.h"
 #include "common/timing.h"
 #include "common/whole_file.h"
+#include "common/words.h"
 
 namespace ballpit::chart {
 
@@ -45,9 +45,7 @@ std::vector<const Question*> questionsOf(const Asked& asked) {
 }
 
 std::string namesOf(const Runners& runners) {
-    std::string names;
-    for (const auto& runner : runners) names += (names.empty() ? "" : ", ") + runner->method();
-    return names;
+    return commaSeparated(runners, [](const auto& runner) { return runner->method(); });
 }
 
 /// Of these runners the ones that were asked for: all, if none.
@@ -99,11 +97,8 @@ std::vector<Point> pointsOf(const Asked& asked, const std::vector<Runner*>& runn
 
 /// What all rows of a run depend on, as comments.
 std::string headOf(const Asked& asked) {
-    std::string head;
-    std::istringstream lines(asked.stamp);
-    for (std::string line; std::getline(lines, line);) head += "# " + line + '\n';
-    return head + "# seed " + std::to_string(asked.sweep.seed) + ", " + name(asked.device) +
-           (asked.sweep.quick ? ", quick" : "") + '\n';
+    return asComments(asked.stamp) + "# seed " + std::to_string(asked.sweep.seed) + ", " +
+           name(asked.device) + (asked.sweep.quick ? ", quick" : "") + '\n';
 }
 
 /// Fills in what each point will take; s, of all that are not there yet.
@@ -223,10 +218,8 @@ std::string chartText(const Question& question, const std::string& head, std::ve
 int runChart(const Asked& given) {
     Asked asked = given;
     if (asked.printQuestions) return printQuestions();
-    if (asked.device == Device::cuda && !cudaUsable())
-        throw InputError("--device cuda: " + whyCudaIsUnusable());
-    if (!std::filesystem::is_directory(asked.out))
-        throw InputError("--out " + asked.out + ": is not a folder");
+    requireUsable(asked.device);
+    requireOutFolder(asked.out);
     if (asked.sweep.quick) asked.sweep.runs = 3;
     if (asked.device == Device::cuda) asked.sweep.further += " --device cuda";
     if (asked.sweep.seed != 1) asked.sweep.further += " --seed " + std::to_string(asked.sweep.seed);

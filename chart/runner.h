@@ -75,7 +75,7 @@ using Runners = std::vector<std::unique_ptr<Runner>>;
 template <class Step, class Look>
 double forEachStep(const Scene& scene, const Knobs& knobs, double seconds, Step step, Look look) {
     const double dt = scene.dt / knobs.stepsAFrame;
-    const long steps = std::lround(std::ceil(seconds / dt - 1e-6));
+    const long steps = stability::wholeSteps(seconds, dt);
     const long stepsALook = std::max(1L, std::lround(knobs.stepsAFrame));
     for (long k = 1; k <= steps; ++k) {
         step();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "common/words.h"
 
 namespace ballpit {
 
@@ -53,12 +54,10 @@ std::vector<Vec3> byMemory(const ColoringSource& source) {
 const char* name(ColorBy by) { return coloringNames.at(static_cast<std::size_t>(by)); }
 
 ColorBy coloringNamed(const std::string& wanted) {
-    std::string known;
-    for (const ColorBy by : allColorings) {
+    for (const ColorBy by : allColorings)
         if (wanted == name(by)) return by;
-        known += std::string(known.empty() ? "" : ", ") + name(by);
-    }
-    throw InputError("colour by '" + wanted + "': known are " + known);
+    throw InputError("colour by '" + wanted + "': known are " +
+                     commaSeparated(allColorings, [](ColorBy by) { return name(by); }));
 }
 
 ColorBy nextColoring(ColorBy by) {

@@ -1,15 +1,13 @@
 // Reading and writing the CSV of bodies.
 #include "common/csv.h"
 
-#include <unistd.h>
-
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <string_view>
 
 #include "common/error.h"
+#include "common/whole_file.h"
 
 namespace ballpit {
 
@@ -79,36 +77,19 @@ Spheres readSpheres(const std::string& path) {
     return spheres;
 }
 
-void requireWritable(const std::string& path) {
-    namespace fs = std::filesystem;
-    fs::path folder = fs::path(path).parent_path();
-    if (folder.empty()) folder = ".";
-    if (!fs::is_directory(folder))
-        throw InputError(path + ": folder " + folder.string() + " does not exist");
-    if (fs::is_directory(path)) throw InputError(path + ": is a folder, not a file name");
-    if (access(folder.c_str(), W_OK) != 0)
-        throw InputError(path + ": folder " + folder.string() + " cannot be written to");
-}
-
 void writeSpheres(const std::string& path, const Spheres& spheres) {
-    requireWritable(path);
-    const std::string part = path + ".part";
-    std::FILE* file = std::fopen(part.c_str(), "w");
-    if (!file) throw InputError(path + ": cannot be written");
-    std::fprintf(file, "%s\n", header);
+    std::string text = std::string(header) + '\n';
     for (std::size_t k = 0; k < spheres.count(); ++k) {
         const Vec3 p = spheres.positions[k], v = spheres.velocities[k], c = spheres.colors[k];
+        char line[256];
         // Nine digits give a float back exactly.
-        std::fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", p.x,
-                     p.y, p.z, v.x, v.y, v.z, spheres.radii[k], spheres.masses[k],
-                     spheres.restitutions[k], c.x, c.y, c.z);
+        std::snprintf(line, sizeof line,
+                      "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", p.x, p.y,
+                      p.z, v.x, v.y, v.z, spheres.radii[k], spheres.masses[k],
+                      spheres.restitutions[k], c.x, c.y, c.z);
+        text += line;
     }
-    const bool complete = std::ferror(file) == 0;
-    if (std::fclose(file) != 0 || !complete) {
-        std::filesystem::remove(part);
-        throw std::runtime_error(path + ": writing failed (disk full?); nothing was left behind");
-    }
-    std::filesystem::rename(part, path);
+    writeWhole(path, text);
 }
 
 }  // namespace ballpit

@@ -15,7 +15,4 @@ Spheres readSpheres(const std::string& path);
 /// under its name only when it is complete.
 void writeSpheres(const std::string& path, const Spheres& spheres);
 
-/// InputError unless a file can be made at `path`: the folder exists and can be written.
-void requireWritable(const std::string& path);
-
 }  // namespace ballpit

@@ -116,6 +116,11 @@ std::string whyCudaIsUnusable() {
 
 #endif
 
+void requireUsable(Device device) {
+    if (device == Device::cuda && !cudaUsable())
+        throw InputError("--device cuda: " + whyCudaIsUnusable());
+}
+
 std::string describe(Device device) {
 #ifdef BALLPIT_CUDA
     if (device == Device::cuda) {

@@ -18,6 +18,9 @@ bool cudaUsable();
 /// Why cudaUsable() is false, and what would change it: one line for the user.
 std::string whyCudaIsUnusable();
 
+/// InputError, naming the option --device, if the device cannot be used.
+void requireUsable(Device device);
+
 /// The GPU where one can be used, else the CPU.
 Device defaultDevice();
 

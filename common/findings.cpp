@@ -1,5 +1,6 @@
 // Text and JSON of findings.
 #include "common/findings.h"
+#include "common/words.h"
 
 #include <algorithm>
 #include <iostream>
@@ -13,20 +14,13 @@ namespace {
 
 constexpr std::size_t longestList = 10'000;
 
-/// Six significant digits, as printf's %g.
-std::string readable(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
-}
-
 }  // namespace
 
 void Findings::add(const std::string& name, std::int64_t value) {
     entries_.push_back({name, std::to_string(value), json(value).dump()});
 }
 void Findings::add(const std::string& name, double value) {
-    entries_.push_back({name, readable(value), json(value).dump()});
+    entries_.push_back({name, withDigits(value), json(value).dump()});
 }
 void Findings::add(const std::string& name, const std::string& value) {
     entries_.push_back({name, value, json(value).dump()});

@@ -11,6 +11,7 @@
 #include "common/coloring.h"
 #include "common/csv.h"
 #include "common/error.h"
+#include "common/whole_file.h"
 
 namespace ballpit {
 
@@ -224,7 +225,7 @@ void requireInRange(const Options& o) {
         const std::string fault = faultOfRestitution(*o.restitution);
         require(fault.empty(), "--restitution: " + fault);
     }
-    if (o.device == Device::cuda) require(cudaUsable(), "--device cuda: " + whyCudaIsUnusable());
+    requireUsable(o.device);
     const std::string still = o.stills.empty() ? "" : firstStill(o.stills);
     for (const std::string& path : {o.out, o.png, o.saveFile, still})
         if (!path.empty()) requireWritable(path);

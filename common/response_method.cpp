@@ -2,10 +2,11 @@
 #include "common/response_method.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <iterator>
 #include <vector>
 
 #include "common/error.h"
+#include "common/words.h"
 
 namespace ballpit {
 
@@ -47,42 +48,34 @@ const Method& find(ResponseMethod method) {
                          [&](const Method& m) { return m.method == method; });
 }
 
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
-}
+const char* nameOf(const Method& m) { return m.name; }
 
 /// The methods that have a knob, as "jacobi, coloured".
 std::string methodsWith(std::optional<Range> Method::*range) {
-    std::string names;
-    for (const Method& m : methods())
-        if (m.*range) names += (names.empty() ? "" : ", ") + std::string(m.name);
-    return names;
+    std::vector<Method> having;
+    std::copy_if(methods().begin(), methods().end(), std::back_inserter(having),
+                 [&](const Method& m) { return (m.*range).has_value(); });
+    return commaSeparated(having, nameOf);
 }
 
 template <class T>
 void requireKnob(const Method& m, const char* knob, const std::optional<T>& value,
                  std::optional<Range> Method::*range, const char* unit) {
     if (!value) return;
-    const std::string said = std::string(knob) + " " + number(double(*value)) + ": ";
+    const std::string said = std::string(knob) + " " + withDigits(double(*value)) + ": ";
     if (!(m.*range))
         throw InputError(said + "the response " + m.name +
                          " has no such knob; those that have: " + methodsWith(range));
     const Range r = *(m.*range);
     if (!(*value >= r.least && *value <= r.most))
-        throw InputError(said + number(r.least) + " to " + number(r.most) + unit);
+        throw InputError(said + withDigits(r.least) + " to " + withDigits(r.most) + unit);
 }
 
 }  // namespace
 
 std::string name(ResponseMethod method) { return find(method).name; }
 
-std::string responseNames() {
-    std::string names;
-    for (const Method& m : methods()) names += (names.empty() ? "" : ", ") + std::string(m.name);
-    return names;
-}
+std::string responseNames() { return commaSeparated(methods(), nameOf); }
 
 ResponseMethod responseMethod(const std::string& name) {
     for (const Method& m : methods())

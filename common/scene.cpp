@@ -9,6 +9,7 @@
 #include "common/device.h"
 #include "common/error.h"
 #include "common/random.h"
+#include "common/words.h"
 #include "stability/catalogue.h"
 
 namespace ballpit {
@@ -213,13 +214,9 @@ SceneKind sceneKind(const std::string& name) {
 }
 
 std::string sceneNames() {
-    std::string names;
-    const auto add = [&](const char* name) {
-        names += (names.empty() ? "" : ", ") + std::string(name);
-    };
-    for (const SceneKind& kind : sceneKinds) add(kind.name);
-    for (const stability::Entry& entry : stability::catalogue()) add(entry.name);
-    return names;
+    const auto nameOf = [](const auto& kind) { return kind.name; };
+    return commaSeparated(sceneKinds, nameOf) + ", " +
+           commaSeparated(stability::catalogue(), nameOf);
 }
 
 namespace {

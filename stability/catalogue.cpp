@@ -1,5 +1,6 @@
 // The table of scenes.
 #include "stability/catalogue.h"
+#include "common/words.h"
 
 #include <cstdio>
 #include <iterator>
@@ -101,10 +102,8 @@ std::span<const Entry> catalogue() { return entries; }
 
 std::string toleranceText(const Entry& entry) {
     std::string text = entry.tolerance;
-    char number[32];
-    std::snprintf(number, sizeof number, "%g", entry.within);
     const std::size_t place = text.find("{}");
-    return place == std::string::npos ? text : text.replace(place, 2, number);
+    return place == std::string::npos ? text : text.replace(place, 2, withDigits(entry.within));
 }
 
 }  // namespace ballpit::stability

@@ -1,8 +1,9 @@
 // ballpit_maps: where each response holds and where it fails, as CSV. `./ballpit maps` draws them.
-#include <filesystem>
 #include <iostream>
 
 #include "common/cli.h"
+#include "common/whole_file.h"
+#include "common/words.h"
 #include "stability/catalogue.h"
 #include "stability/map_file.h"
 #include "stability/run_maps.cuh"
@@ -20,10 +21,7 @@ struct Asked {
 };
 
 std::string allNames() {
-    std::string names;
-    for (const MapKind& kind : mapKinds())
-        names += (names.empty() ? "" : ", ") + std::string(kind.name);
-    return names;
+    return commaSeparated(mapKinds(), [](const MapKind& kind) { return kind.name; });
 }
 
 /// The kinds that were asked for: all, if none.
@@ -59,10 +57,8 @@ int printScenes() {
 int run(const Asked& asked) {
     if (asked.scenes) return printScenes();
     const std::vector<MapKind> kinds = kindsOf(asked.names);
-    if (asked.options.device == Device::cuda && !cudaUsable())
-        throw InputError("--device cuda: " + whyCudaIsUnusable());
-    if (!std::filesystem::is_directory(asked.out))
-        throw InputError("--out " + asked.out + ": is not a folder");
+    requireUsable(asked.options.device);
+    requireOutFolder(asked.out);
     const StopRequest stop;
     const int threads = cpuThreadCount();
     for (const MapKind& kind : kinds) {
@@ -85,16 +81,11 @@ int run(const Asked& asked) {
 int main(int argc, char** argv) {
     CLI::App app{"Where each response holds and where it fails: CSV files, map_NAME.csv."};
     Asked asked;
-    std::string device = name(Device::cpu);
     app.add_option("names", asked.names, "maps to make (default: all): " + allNames());
     app.add_flag("--coarse", asked.options.coarse, "few cells, small scenes");
-    app.add_option("--device", device, "cuda or cpu")
-        ->check(CLI::IsMember({"cuda", "cpu"}))
-        ->capture_default_str();
-    app.add_option("--out", asked.out, "folder for the files")->capture_default_str();
-    app.add_option("--stamp", asked.stamp, "lines for the files' head: machine, commit, command");
+    addDevice(app, asked.options.device);
+    addOutput(app, asked.out, asked.stamp);
     app.add_flag("--scenes", asked.scenes, "print the table of scenes instead, as Markdown");
     if (const auto end = endAfterParsing(app, argc, argv)) return *end;
-    asked.options.device = device == "cuda" ? Device::cuda : Device::cpu;
     return reportingErrors([&] { return run(asked); });
 }

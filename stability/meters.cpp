@@ -62,9 +62,8 @@ Verdict Meter::verdictOf(const Spheres& now) const {
     return energy(now) > mostEnergy * startEnergy_ ? Verdict::energy : Verdict::ok;
 }
 
-void ConservationMeter::observe(const Spheres& now, double) {
-    error_ =
-        std::max(std::abs(energy(now) / startEnergy() - 1), momentumError(scene().spheres, now));
+double ConservationMeter::errorOf(const Spheres& now) const {
+    return std::max(std::abs(energy(now) / startEnergy() - 1), momentumError(scene().spheres, now));
 }
 
 void CoolingMeter::observe(const Spheres& now, double time) {
@@ -89,16 +88,17 @@ void RestingMeter::observe(const Spheres& now, double time) {
 
 bool RestingMeter::hasLostOne(const Spheres& now) const { return hasFallenThrough(now); }
 
-void CradleMeter::observe(const Spheres& now, double) {
+double CradleMeter::errorOf(const Spheres& now) const {
     const std::vector<double> truth = truth::cradleOneByOne(static_cast<int>(now.count()));
-    error_ = 0;
+    double error = 0;
     for (std::size_t k = 0; k < now.count(); ++k) {
         const Vec3 v = now.velocities[k];
-        error_ = std::max(error_, length(Vec3d{v.x - truth[k], v.y, v.z}));
+        error = std::max(error, length(Vec3d{v.x - truth[k], v.y, v.z}));
     }
+    return error;
 }
 
-void AngleMeter::observe(const Spheres& now, double) {
+double AngleMeter::errorOf(const Spheres& now) const {
     const Spheres& before = scene().spheres;
     double squares = 0;
     for (std::size_t k = 0; k + 1 < now.count(); k += 2) {
@@ -109,7 +109,7 @@ void AngleMeter::observe(const Spheres& now, double) {
         const double wrong = (turned - truth::scatteringAngle(offset, 2 * ballRadius, 1)) / degree;
         squares += wrong * wrong;
     }
-    error_ = std::sqrt(squares / (0.5 * static_cast<double>(now.count())));
+    return std::sqrt(squares / (0.5 * static_cast<double>(now.count())));
 }
 
 void HandedOnMeter::observe(const Spheres& now, double time) {

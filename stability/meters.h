@@ -21,17 +21,27 @@ private:
     EnergyDrift drift_;
 };
 
-/// The larger of |E / E0 - 1| and |p - p0| / sqrt(2 E0 M), at the end.
-class ConservationMeter : public Meter {
+/// An error that the last state alone decides.
+class LastStateMeter : public Meter {
 public:
     using Meter::Meter;
     double error() const override { return error_; }
 
 protected:
-    void observe(const Spheres& now, double) override;
+    virtual double errorOf(const Spheres& now) const = 0;
+    void observe(const Spheres& now, double) override { error_ = errorOf(now); }
 
 private:
     double error_ = 0;
+};
+
+/// The larger of |E / E0 - 1| and |p - p0| / sqrt(2 E0 M), at the end.
+class ConservationMeter : public LastStateMeter {
+public:
+    using LastStateMeter::LastStateMeter;
+
+protected:
+    double errorOf(const Spheres& now) const override;
 };
 
 /// |E / E_true - 1| at the end; E_true: the event-driven simulator from the same start.
@@ -77,29 +87,21 @@ private:
 };
 
 /// The largest distance of a ball's velocity, m/s, from what Newton's cradle ends with.
-class CradleMeter : public Meter {
+class CradleMeter : public LastStateMeter {
 public:
-    using Meter::Meter;
-    double error() const override { return error_; }
+    using LastStateMeter::LastStateMeter;
 
 protected:
-    void observe(const Spheres& now, double) override;
-
-private:
-    double error_ = 0;
+    double errorOf(const Spheres& now) const override;
 };
 
 /// Root mean square over all pairs: by how many degrees the relative velocity is turned wrongly.
-class AngleMeter : public Meter {
+class AngleMeter : public LastStateMeter {
 public:
-    using Meter::Meter;
-    double error() const override { return error_; }
+    using LastStateMeter::LastStateMeter;
 
 protected:
-    void observe(const Spheres& now, double) override;
-
-private:
-    double error_ = 0;
+    double errorOf(const Spheres& now) const override;
 };
 
 /// sqrt of the mean over all bullets of (p - p_true)^2, over the mean of p_true; p: the momentum

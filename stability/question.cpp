@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/words.h"
 #include "stability/catalogue.h"
 #include "stability/gas_truth.h"
 #include "stability/meters.h"
@@ -44,31 +45,26 @@ constexpr const char* deepestError = "deepest overlap / r";
 
 std::vector<Question> makeQuestions() {
     std::vector<Question> all{
-        {"two_bodies", "rms error of the angle, degrees", "truth/collisions.h: scatteringAngle", 0,
+        {"two_bodies", "rms error of the angle, degrees", "truth/collisions.h: scatteringAngle",
          0.2, makeMeter<AngleMeter>, manyMeetings},
-        {"bounce", energyError, "constant shadow energy", 0, 20, makeMeter<EnergyMeter>, nullptr},
+        {"bounce", energyError, "constant shadow energy", 20, makeMeter<EnergyMeter>},
         {"newtons_cradle", "largest error of a velocity, m/s", "truth/collisions.h: cradleOneByOne",
-         0, 2, makeMeter<CradleMeter>, nullptr},
-        {"pocket", conservedError, "energy and momentum stay", 0, 0.5, makeMeter<ConservationMeter>,
-         nullptr},
-        {"hub", conservedError, "energy and momentum stay", 0, 0.5, makeMeter<ConservationMeter>,
-         nullptr},
-        {"elastic_gas", energyError, "constant energy", 0, gasSeconds({}, gasCollisions),
-         makeMeter<EnergyMeter>, nullptr},
-        {"cooling_gas", "|E / E_true - 1| at Haff's time", "the event-driven simulator", 0,
-         gasSeconds({.restitution = 0.9f}, gasCollisions), makeMeter<CoolingMeter>, nullptr},
-        {"six_cubed", overlapError, "no overlap", 0, 10, makeMeter<OverlapMeter>, nullptr},
-        {"six_cubed_elastic", energyError, "constant shadow energy", 0, 10, makeMeter<EnergyMeter>,
-         nullptr},
-        {"column", deepestError, "no overlap in the last second", 0, restingSeconds, makeResting,
-         nullptr},
-        {"heavy_on_light", deepestError, "no overlap in the last second", 0, restingSeconds,
-         makeResting, nullptr},
-        {"deep_pile", overlapError, "no overlap", 0, 5, makeMeter<OverlapMeter>, nullptr},
-        {"mixed_radii", "rms overlap / mean r", "no overlap", 0, 5, makeMeter<OverlapMeter>,
-         nullptr},
+         2, makeMeter<CradleMeter>},
+        {"pocket", conservedError, "energy and momentum stay", 0.5, makeMeter<ConservationMeter>},
+        {"hub", conservedError, "energy and momentum stay", 0.5, makeMeter<ConservationMeter>},
+        {"elastic_gas", energyError, "constant energy", gasSeconds({}, gasCollisions),
+         makeMeter<EnergyMeter>},
+        {"cooling_gas", "|E / E_true - 1| at Haff's time", "the event-driven simulator",
+         gasSeconds({.restitution = 0.9f}, gasCollisions), makeMeter<CoolingMeter>},
+        {"six_cubed", overlapError, "no overlap", 10, makeMeter<OverlapMeter>},
+        {"six_cubed_elastic", energyError, "constant shadow energy", 10, makeMeter<EnergyMeter>},
+        {"column", deepestError, "no overlap in the last second", restingSeconds, makeResting},
+        {"heavy_on_light", deepestError, "no overlap in the last second", restingSeconds,
+         makeResting},
+        {"deep_pile", overlapError, "no overlap", 5, makeMeter<OverlapMeter>},
+        {"mixed_radii", "rms overlap / mean r", "no overlap", 5, makeMeter<OverlapMeter>},
         {"bullet", "rms error of the momentum handed on, as a share", "the event-driven simulator",
-         0, 0.1, makeMeter<HandedOnMeter>, volley}};
+         0.1, makeMeter<HandedOnMeter>, volley}};
     for (Question& question : all) question.tolerance = entryOf(question.scene).within;
     return all;
 }
@@ -87,10 +83,7 @@ std::span<const Question> questions() {
 }
 
 std::string questionNames() {
-    std::string names;
-    for (const Question& question : questions())
-        names += (names.empty() ? "" : ", ") + std::string(question.scene);
-    return names;
+    return commaSeparated(questions(), [](const Question& question) { return question.scene; });
 }
 
 const Question& question(std::string_view scene) {

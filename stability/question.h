@@ -3,6 +3,7 @@
 // asked: a meter sees nothing but states.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +13,11 @@
 #include "stability/map.h"
 
 namespace ballpit::stability {
+
+/// The whole steps of dt s that a run of `seconds` takes.
+inline long wholeSteps(double seconds, double dt) {
+    return std::lround(std::ceil(seconds / dt - 1e-6));
+}
 
 /// Reads the error off one run. Give it the state at the end of every frame (Scene::dt s; of every
 /// step, if steps are longer), the start left out.
@@ -58,10 +64,11 @@ struct Question {
     const char* scene;        ///< its name in the catalogue
     const char* error;        ///< what the error is, for an axis
     const char* heldAgainst;  ///< what has the error 0
-    double tolerance;         ///< as in the catalogue
     double seconds;           ///< simulated
     std::unique_ptr<Meter> (*meter)(const Scene& scene, double dt);
-    Scene (*makeOwn)(std::uint64_t seed);  ///< null: the catalogue's scene, as many balls as usual
+    /// Null: the catalogue's scene, as many balls as usual.
+    Scene (*makeOwn)(std::uint64_t seed) = nullptr;
+    double tolerance = 0;  ///< the catalogue's
 
     Scene make(std::uint64_t seed) const;
 };

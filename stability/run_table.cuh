@@ -28,14 +28,8 @@ struct TableRun {
     SimulatorSettings settings;
     double seconds;
 
-    long steps() const { return std::lround(std::ceil(seconds / scene.dt - 1e-6)); }
+    long steps() const { return wholeSteps(seconds, scene.dt); }
     double movingStep() const { return scene.dt / static_cast<double>(*knobs().substeps); }
-    /// Passes over listed pairs in a step that found so many in its first round (those with rounds
-    /// have two of them) and so many in its last.
-    double visits(double first, double last, bool inSubsteps) const {
-        return inSubsteps ? *knobs().substeps * *knobs().iterations * last
-                          : first + (*knobs().iterations - 1) * last;
-    }
 
 private:
     ResponseKnobs knobs() const {
@@ -101,9 +95,7 @@ private:
         const auto dt = double(run_.scene.dt);
         double visits = 0;
         for (long k = 1; k <= steps; ++k) {
-            const double first = trial.step().collisions;
-            const auto last = static_cast<double>(trial.lastPairs().size());
-            visits += run_.visits(first, last, trial.movesInSubsteps());
+            visits += visitsOf(trial.step(), trial.settings());
             record_.seconds = static_cast<double>(k) * dt;
             record_.end = trial.state();
             observe();

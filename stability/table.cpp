@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "common/words.h"
 #include "truth/kinetic_theory.h"
 
 namespace ballpit::stability {
@@ -42,12 +43,7 @@ constexpr Column columns[] = {{"error", &Measures::error},
 /// Statistics of fewer balls say nothing.
 constexpr std::size_t fewestForStatistics = 100;
 
-std::string text(double value) {
-    if (!std::isfinite(value)) return "";
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.4g", value);
-    return buffer;
-}
+std::string text(double value) { return std::isfinite(value) ? withDigits(value, 4) : ""; }
 
 /// The cells of a row, those of the head if there is none.
 std::vector<std::string> cellsOf(const TableRow* row) {
@@ -154,10 +150,7 @@ bool mayHaveMetWall(const Spheres& s, Bounds walls, double dt) {
 }
 
 std::string csvOf(const std::vector<TableRow>& rows, const std::string& stamp) {
-    std::istringstream lines(stamp);
-    std::string csv;
-    for (std::string line; std::getline(lines, line);) csv += "# " + line + '\n';
-    csv += csvLine(cellsOf(nullptr));
+    std::string csv = asComments(stamp) + csvLine(cellsOf(nullptr));
     for (const TableRow& row : rows) csv += csvLine(cellsOf(&row));
     return csv;
 }

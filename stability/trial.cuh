@@ -41,6 +41,12 @@ inline SimulatorSettings settingsWith(const Scene& scene, Device device, Respons
     return settings;
 }
 
+/// How many pairs a step visited: those it listed (in the longest of its rounds), times its passes
+/// over them. A cost without a machine; finding the pairs is not in it.
+inline double visitsOf(const StepStats& stats, const SimulatorSettings& settings) {
+    return double(*settings.iterations) * *settings.substeps * stats.listed;
+}
+
 /// A simulator with a scene in it. On a CPU the racy method plays its race on one thread, the same
 /// each time: two threads would hardly ever meet.
 class Trial : public PhysicsSimulator {

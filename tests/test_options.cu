@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "common/csv.h"
+#include "common/whole_file.h"
 #include "tests/command_line.h"
 #include "tests/support.h"
 

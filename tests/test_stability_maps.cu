@@ -271,7 +271,8 @@ TEST_CASE("an error in a cell ends the map") {
 TEST_CASE("a map's file says what it is, cell by cell, and leaves nothing half done") {
     const std::string path = "tiny_map.csv";
     const Map map = tinyMap();
-    writeMap(path, map, *runMap(map, cpu), "a machine, commit 1\n./ballpit maps tiny");
+    const std::vector<std::vector<Outcome>> outcomes = *runMap(map, cpu);
+    writeMap(path, map, outcomes, "a machine, commit 1\n./ballpit maps tiny");
     CHECK(contentsOf(path) ==
           "# map: tiny\n# title: A title?\n# ok: it is ok\n# value: a value\n"
           "# a machine, commit 1\n# ./ballpit maps tiny\n"
@@ -286,6 +287,6 @@ TEST_CASE("a map's file says what it is, cell by cell, and leaves nothing half d
     CHECK_FALSE(std::filesystem::exists(path + ".part"));
     std::filesystem::remove(path);
     CHECK(test::contains(
-        test::messageOf<InputError>([&] { writeMap("no/such/folder.csv", map, {}, ""); }),
+        test::messageOf<InputError>([&] { writeMap("no/such/folder.csv", map, outcomes, ""); }),
         "does not exist"));
 }

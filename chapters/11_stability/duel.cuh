@@ -8,6 +8,7 @@
 #include "10_full_system/physics_simulator.cuh"
 #include "common/metrics.h"
 #include "common/options.h"
+#include "common/words.h"
 #include "stability/scenes.h"
 
 namespace ballpit {
@@ -84,11 +85,7 @@ private:
 
 // What a duel is judged by.
 
-inline std::string fourDigits(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
+inline std::string fourDigits(double value) { return withDigits(value, 4); }
 inline std::string energyKept(Side& side) { return fourDigits(side.energyShare()); }
 inline std::string deepestOverlap(Side& side) { return fourDigits(side.overlap()); }
 inline std::string ballsStruck(Side& side) {
@@ -185,9 +182,7 @@ inline std::vector<Duel> allDuels() {
 
 /// "pocket, gas, ...".
 inline std::string duelNames() {
-    std::string names;
-    for (const Duel& duel : allDuels()) names += (names.empty() ? "" : ", ") + duel.scene;
-    return names;
+    return commaSeparated(allDuels(), [](const Duel& duel) { return duel.scene; });
 }
 
 /// What --scene can be.

@@ -9,6 +9,7 @@
 
 #include "common/error.h"
 #include "common/hole.cuh"
+#include "common/words.h"
 #include "tests/checks/check.h"
 
 namespace ballpit::check {
@@ -64,7 +65,7 @@ private:
 std::vector<Device> devicesFor(const std::string& word) {
     if (word == "cpu") return {Device::cpu};
     if (word == "all" && !cudaUsable()) return {Device::cpu};
-    if (!cudaUsable()) throw InputError("--device cuda: " + whyCudaIsUnusable());
+    requireUsable(Device::cuda);
     if (word == "cuda") return {Device::cuda};
     return {Device::cpu, Device::cuda};
 }
@@ -188,12 +189,10 @@ private:
 };
 
 void requireKnown(const std::string& id, const std::vector<Check>& checks) {
-    std::string known;
-    for (const Check& check : checks) {
+    for (const Check& check : checks)
         if (id.empty() || check.id == id) return;
-        known += (known.empty() ? "" : ", ") + check.id;
-    }
-    throw InputError("unknown check '" + id + "': there are " + known);
+    throw InputError("unknown check '" + id + "': there are " +
+                     commaSeparated(checks, [](const Check& check) { return check.id; }));
 }
 
 void printList(const std::vector<Check>& checks) {
