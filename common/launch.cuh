@@ -9,6 +9,7 @@
 
 #include "common/device.h"
 #include "common/hd.h"
+#include "common/parallel.h"
 
 #ifdef __CUDACC__
 #include "common/cuda_check.h"
@@ -31,8 +32,8 @@ inline LaunchOrder& launchOrder() {
 
 /// Where turn k of `count` goes: a permutation of [0, count) for every order.
 inline int indexInOrder(LaunchOrder order, int k, int count) {
-    if (order == LaunchOrder::reversed) return count - 1 - k;
     if (order == LaunchOrder::forward) return k;
+    if (order == LaunchOrder::reversed) return count - 1 - k;
     // A stride without common divisor with count visits every index once.
     std::int64_t stride = static_cast<std::int64_t>(0.618 * count) | 1;
     while (std::gcd(stride, static_cast<std::int64_t>(count)) != 1) stride += 2;
@@ -50,19 +51,14 @@ __global__ void threadPerIndex(int count, Args... args) {
 #endif
 
 template <auto body, class... Args>
-void loopOverIndices(int count, Args... args) {
+void loopOverIndices(int count, const Args&... args) {
     const LaunchOrder order = launchOrder();
-    if (order == LaunchOrder::forward) {
-#pragma omp parallel for schedule(static) if (count >= serialCount)
-        for (int i = 0; i < count; ++i) body(i, args...);
-    } else {
-#pragma omp parallel for schedule(static) if (count >= serialCount)
-        for (int k = 0; k < count; ++k) body(indexInOrder(order, k, count), args...);
-    }
+    forEachTurn(count, count >= serialCount,
+                [&](int k) { body(indexInOrder(order, k, count), args...); });
 }
 
 template <auto body, class... Args>
-void launch(Device device, int count, Args... args) {
+void launch(Device device, int count, const Args&... args) {
     if (count <= 0) return;
     if (device == Device::cpu) return loopOverIndices<body>(count, args...);
 #ifdef __CUDACC__

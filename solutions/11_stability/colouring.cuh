@@ -239,8 +239,8 @@ public:
     template <auto body, class... Args>
     void forEachPair(Args... args) {
         for (std::uint32_t colour = 0; colour < colourCount; ++colour)
-            launch<pairOfColour<body, Args...>>(device_, mostPairsOf(colour), colour, view_,
-                                                args...);
+            if (const int most = mostPairsOf(colour))
+                launch<pairOfColour<body, Args...>>(device_, most, colour, view_, args...);
         launch<pairsOfOverflow<body, Args...>>(device_, 1, view_, args...);
     }
 
