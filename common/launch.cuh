@@ -41,12 +41,22 @@ inline int indexInOrder(LaunchOrder order, int k, int count) {
 }
 
 constexpr int threadsPerBlock = 256;
+/// Of the one block of launchPhases.
+constexpr int threadsOfPhases = 512;
 
 #ifdef __CUDACC__
 template <auto body, class... Args>
 __global__ void threadPerIndex(int count, Args... args) {
     const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
     if (i < count) body(i, args...);
+}
+
+template <auto body, class... Args>
+__global__ void __launch_bounds__(threadsOfPhases) phasesOfOneBlock(int phases, Args... args) {
+    for (int phase = 0; phase < phases; ++phase) {
+        body(phase, static_cast<int>(threadIdx.x), static_cast<int>(blockDim.x), args...);
+        __syncthreads();
+    }
 }
 #endif
 
@@ -64,6 +74,23 @@ void launch(Device device, int count, const Args&... args) {
 #ifdef __CUDACC__
     const int blocks = (count + threadsPerBlock - 1) / threadsPerBlock;
     threadPerIndex<body><<<blocks, threadsPerBlock, 0, cudaStream>>>(count, args...);
+    checkCuda(cudaGetLastError(), __PRETTY_FUNCTION__);
+#else
+    throw std::logic_error("a launch on a GPU in a build without CUDA");
+#endif
+}
+
+/// Phases one after the other: body(phase, thread, threads, arguments...) does a thread's share of
+/// each, and must not care how many threads there are. For little work a phase: on a GPU it is done
+/// by one block, whose threads can wait for each other, since a launch takes longer than a phase.
+template <auto body, class... Args>
+void launchPhases(Device device, int phases, const Args&... args) {
+    if (device == Device::cpu) {
+        for (int phase = 0; phase < phases; ++phase) body(phase, 0, 1, args...);
+        return;
+    }
+#ifdef __CUDACC__
+    phasesOfOneBlock<body><<<1, threadsOfPhases, 0, cudaStream>>>(phases, args...);
     checkCuda(cudaGetLastError(), __PRETTY_FUNCTION__);
 #else
     throw std::logic_error("a launch on a GPU in a build without CUDA");
