@@ -18,7 +18,8 @@ constexpr double leastSample = 20, leastQuickSample = 5;
 /// s: a point that takes longer gets fewer timed runs, but never fewer than three.
 constexpr double enoughTime = 10, enoughQuickTime = 1;
 constexpr int fewestRuns = 3;
-constexpr double longEnoughToWarm = 500;  ///< ms
+/// ms: longer samples need no warm-up.
+constexpr double longEnoughToWarm = 500, longEnoughQuickly = 50;
 
 std::string shortNumber(double value) { return withDigits(value, 3); }
 
@@ -70,7 +71,7 @@ void timeRow(Row& row, const Question& question, Runner& runner, const Scene& sc
         }
         spent += run.cost.milliseconds;
         // The first short one is a warm-up; a long one has been warm for most of its time.
-        if (isWarm || run.cost.milliseconds > longEnoughToWarm)
+        if (isWarm || run.cost.milliseconds > (sweep.quick ? longEnoughQuickly : longEnoughToWarm))
             times.push_back(run.cost.millisecondsASecond());
         isWarm = true;
     }

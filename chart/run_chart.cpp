@@ -21,7 +21,8 @@ namespace {
 using stability::Question;
 
 constexpr int stoppedByUser = 130;
-constexpr const char* quickScenes[] = {"bounce", "elastic_gas", "six_cubed", "column", "deep_pile"};
+constexpr const char* quickScenes[] = {"bounce", "elastic_gas", "six_cubed", "column",
+                                       "heavy_on_light"};
 
 struct Point {
     const Question* question;

@@ -19,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tools" / "figures"), str(ROOT / "tools" / "chart")]
 
+import gains
 import page
 import speed_chart
 from refusal import assert_refused
@@ -197,7 +198,9 @@ class Drawing(InFolder):
     def test_redraw_needs_no_measurement_and_refuses_what_is_no_chart(self):
         with contextlib.redirect_stderr(io.StringIO()):
             self.assertEqual(chart_command.redraw([str(self.file)]), 0)
-        self.assertTrue((self.folder / "chart.html").exists())
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()),
+                         ["chart.html", "chart_column.csv", "chart_column.png", "chart_column.svg",
+                          "plan_gains.md"])
         with self.assertRaisesRegex(InputError, "nowhere.csv: cannot be read"):
             chart_command.redraw([str(self.folder / "nowhere.csv")])
         self.file.write_text("hello\n")
@@ -248,6 +251,50 @@ class Page(InFolder):
         except FileNotFoundError:
             self.skipTest("SKIPPED: no node")
         self.assertEqual(result.returncode, 0, result.stderr)
+
+
+class Gains(InFolder):
+    """The plan and the original loop, put into the tiny chart."""
+
+    def row(self, *points):
+        """The table's row, without scene and tolerance, with these points ("method, label, error,
+        verdict, ms") in the chart."""
+        lines = []
+        for point in points:
+            method, label, error, verdict, ms = point.split(", ")
+            factor = "nan" if ms == "nan" else 1000 / float(ms)
+            lines.append(f"column,ballpit,{method},dt,2,0.008,2,iterations,{label},{error},0.1,{verdict},"
+                         f"{ms},{ms},{ms},{factor},100,5,yes,yes,command\n")
+        self.file.write_text(TINY + "".join(lines))
+        return gains.gain(self.file)[2:]
+
+    def test_the_loop_is_asked_for_its_error_in_the_plans_time_and_its_time_at_the_plans_error(self):
+        row = self.row("mass-split, original loop, 1.5, ok, 3", "mass-split, x, 1.2, ok, 7",
+                       "mass-split, y, 0.02, ok, 50", "mass-split, z, 0.5, ok, 8.5",
+                       "plan, plan, 0.03, ok, 8")
+        self.assertEqual(row, ["1.5", "3", "0.03", "8", "1.2", "50", "8", "plan, 8 ms", "1.00"])
+
+    def test_a_loop_that_is_never_so_fast_or_so_accurate_is_told_so(self):
+        row = self.row("mass-split, original loop, 1.5, ok, 30", "plan, plan, 0.03, ok, 8")
+        self.assertEqual(row[4:6], ["not so fast", "never"])
+
+    def test_the_cheapest_is_within_the_tolerance_and_no_exhibit_and_no_failure(self):
+        row = self.row("mass-split, original loop, nan, lost, nan", "atomic, a, 0.01, ok, 1",
+                       "coloured, b, 0.01, energy, nan", "warm, c, 0.11, ok, 2",
+                       "warm, d, 0.09, ok, 4", "plan, plan, 0.03, ok, 8")
+        self.assertEqual(row[:2], ["lost", ""])
+        self.assertEqual(row[6:], ["4", "warm, 8 ms", "2.00"])
+
+    def test_a_plan_that_failed_is_told_and_a_chart_without_plan_or_loop_has_no_row(self):
+        row = self.row("mass-split, original loop, 1.5, ok, 3", "plan, plan, 0.03, lost, nan")
+        self.assertEqual(row[2:], ["lost"] + [""] * 6)
+        self.file.write_text(TINY)
+        self.assertIsNone(gains.gain(self.file))
+
+    def test_the_docs_have_the_tables_of_their_charts(self):
+        for folder in (ROOT / "docs/results", ROOT / "docs/results/h100"):
+            self.assertEqual((folder / "plan_gains.md").read_text(),
+                             gains.markdown(sorted(folder.glob("chart_*.csv"))))
 
 
 if __name__ == "__main__":

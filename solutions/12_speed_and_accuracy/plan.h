@@ -38,7 +38,7 @@ struct PlanThresholds {
     double bounceTravel = 0.5;       ///< radii a step of elastic balls that crowd
     double bouncePerTravel = 0.036;  ///< error of the energy of bouncing balls, a radius of travel
     double anglePerTravel = 0.424;   ///< rad (24.3 degrees) that a late contact turns, a radius
-    double coolingPerTravel = 1.2;   ///< error of the energy left, a radius of rms travel
+    double coolingPerTravel = 0.95;  ///< error of the energy left, a radius of rms travel
     double missedPerTravel = 0.16;   ///< share of momentum not handed on, a radius^2 of travel
     int mostContacts = 24;           ///< of a ball: so many colours there are
     double leastFloats = 4;          ///< float neighbours that a step of gravity must be long

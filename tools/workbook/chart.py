@@ -12,6 +12,7 @@ from workbook.terminal import note
 
 sys.path[:0] = [str(ROOT / "tools" / "figures"), str(ROOT / "tools" / "chart")]
 
+import gains  # noqa: E402
 import page  # noqa: E402
 import speed_chart  # noqa: E402
 
@@ -20,7 +21,8 @@ def register(commands):
     chart = commands.add_parser(
         "chart", help="chart speed against accuracy, method by method",
         description="Measures error and speed of every method over its knobs: chart_SCENE.csv, .svg "
-                    "and .png, and chart.html to explore them. A run that was stopped goes on when "
+                    "and .png; chart.html to explore them; and plan_gains.md, the plan "
+                    "against the original loop. A run that was stopped goes on when "
                     "the same command is given again.")
     chart.add_argument("--scene", action="append", default=[], metavar="S",
                        help="a scene to chart, 666 for six_cubed (default: all; may be repeated)")
@@ -82,11 +84,12 @@ def draw(csv_file):
     note(f"written: {files.relative(csv_file)}, .svg and .png")
 
 
-def write_page(folder):
-    """The page of all charts in the folder."""
-    path = folder / "chart.html"
-    files.write(path, page.page(sorted(folder.glob("chart_*.csv"))))
-    note(f"written: {files.relative(path)}: open it in a browser")
+def write_pages(folder):
+    """Of all charts in the folder: the page, and the table of the plan's gains."""
+    charts = sorted(folder.glob("chart_*.csv"))
+    files.write(folder / "chart.html", page.page(charts))
+    files.write(folder / "plan_gains.md", gains.markdown(charts))
+    note(f"written: {files.relative(folder / 'chart.html')}: open it in a browser; plan_gains.md")
 
 
 def redraw(names):
@@ -94,7 +97,7 @@ def redraw(names):
     for chart in charts:
         draw(chart)
     for folder in dict.fromkeys(chart.parent for chart in charts):
-        write_page(folder)
+        write_pages(folder)
     return 0
 
 
@@ -120,5 +123,5 @@ def chart_command(args):
     if code < 0:
         raise ToolError(f"ballpit_chart was ended by signal {-code}; the same command goes on")
     if drawn:
-        write_page(folder)
+        write_pages(folder)
     return code
