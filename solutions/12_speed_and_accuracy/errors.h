@@ -43,7 +43,8 @@ public:
     double last() const { return last_; }             ///< (E - E0) / |E0|
     double mean() const { return sum_ / divisor(); }  ///< signed: of all that was added
     double rms() const { return std::sqrt(squares_ / divisor()); }
-    double largest() const { return largest_; }  ///< of |E - E0| / |E0|
+    /// Of |E - E0| / |E0|. (A NaN is larger than nothing, but the sum has seen it.)
+    double largest() const { return std::isnan(sum_) ? sum_ : largest_; }
 
 private:
     double divisor() const { return count_ == 0 ? 1.0 : static_cast<double>(count_); }

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
           driftByHand},
          {"error.sums", "Mean, rms and largest drift are those of all energies at once",
           "They are gathered as the run goes on, and nobody keeps its energies.", driftAtRandom},
-         {"error.no_number", "After one NaN, mean and rms are NaN for good",
+         {"error.no_number", "After one NaN, mean, rms and largest are NaN for good",
           "A run that blew up must not look perfect.", driftOfNoNumber},
          {"front.one", "To beat: at least as good in both, better in one",
           "Equal points must not throw each other out, and a tie in speed is decided by the error.",

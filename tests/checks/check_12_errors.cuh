@@ -202,7 +202,8 @@ inline void driftOfNoNumber(Report& report) {
         const std::string where =
             "NaN among " + text(energies.size()) + " energies that are right: ";
         for (const auto& [what, value] :
-             {std::pair{"mean", drift.mean()}, std::pair{"rms", drift.rms()}})
+             {std::pair{"mean", drift.mean()}, std::pair{"rms", drift.rms()},
+              std::pair{"largest", drift.largest()}})
             if (!std::isnan(value)) report.fail(where + what, brief(value), "nan");
     }
     report.guess({{"a NaN was left out: a run that blew up looks perfect", [&] {
