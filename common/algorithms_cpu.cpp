@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/device.h"
+#include "common/parallel.h"
 
 namespace ballpit::cpu {
 
@@ -25,6 +26,13 @@ struct Chunk {
 Chunk chunkOf(int chunk, int chunkCount, int count) {
     const auto edge = [&](std::int64_t c) { return static_cast<int>(c * count / chunkCount); };
     return {edge(chunk), edge(chunk + 1)};
+}
+
+/// visit(c, chunk) for every chunk c of `count` elements, one a thread.
+template <class Visit>
+void forEachChunk(int chunkCount, int count, Visit visit) {
+    forEachTurn(chunkCount, chunkCount > 1,
+                [&](int c) { visit(static_cast<std::size_t>(c), chunkOf(c, chunkCount, count)); });
 }
 
 using Histogram = std::array<std::uint32_t, 1 << maxDigitBits>;
@@ -47,26 +55,22 @@ void sortPass(int count, int shift, int bits, const std::uint32_t* keys,
     const std::uint32_t mask = (1u << bits) - 1u;
     std::vector<Histogram> histograms(static_cast<std::size_t>(chunkCount));
 
-#pragma omp parallel for schedule(static, 1) num_threads(chunkCount)
-    for (int c = 0; c < chunkCount; ++c) {
-        Histogram& histogram = histograms[static_cast<std::size_t>(c)];
+    forEachChunk(chunkCount, count, [&](std::size_t c, Chunk chunk) {
+        Histogram& histogram = histograms[c];
         histogram.fill(0);
-        const Chunk chunk = chunkOf(c, chunkCount, count);
         for (int i = chunk.begin; i < chunk.end; ++i) ++histogram[keys[i] >> shift & mask];
-    }
+    });
 
     countsToSlots(histograms, mask + 1u);
 
-#pragma omp parallel for schedule(static, 1) num_threads(chunkCount)
-    for (int c = 0; c < chunkCount; ++c) {
-        Histogram& next = histograms[static_cast<std::size_t>(c)];
-        const Chunk chunk = chunkOf(c, chunkCount, count);
+    forEachChunk(chunkCount, count, [&](std::size_t c, Chunk chunk) {
+        Histogram& next = histograms[c];
         for (int i = chunk.begin; i < chunk.end; ++i) {
             const std::uint32_t slot = next[keys[i] >> shift & mask]++;
             outKeys[slot] = keys[i];
             outValues[slot] = values[i];
         }
-    }
+    });
 }
 
 }  // namespace
@@ -94,33 +98,30 @@ void exclusiveScan(int count, const std::uint32_t* counts, std::uint32_t* starts
     const int chunkCount = chunkCountFor(count);
     std::vector<std::uint32_t> sums(static_cast<std::size_t>(chunkCount) + 1, 0);
 
-#pragma omp parallel for schedule(static, 1) num_threads(chunkCount)
-    for (int c = 0; c < chunkCount; ++c) {
-        const Chunk chunk = chunkOf(c, chunkCount, count);
+    forEachChunk(chunkCount, count, [&](std::size_t c, Chunk chunk) {
         std::uint32_t sum = 0;
         for (int i = chunk.begin; i < chunk.end; ++i) sum += counts[i];
-        sums[static_cast<std::size_t>(c) + 1] = sum;
-    }
+        sums[c + 1] = sum;
+    });
 
     for (std::size_t c = 1; c < sums.size(); ++c) sums[c] += sums[c - 1];
 
-#pragma omp parallel for schedule(static, 1) num_threads(chunkCount)
-    for (int c = 0; c < chunkCount; ++c) {
-        const Chunk chunk = chunkOf(c, chunkCount, count);
-        std::uint32_t sum = sums[static_cast<std::size_t>(c)];
+    forEachChunk(chunkCount, count, [&](std::size_t c, Chunk chunk) {
+        std::uint32_t sum = sums[c];
         for (int i = chunk.begin; i < chunk.end; ++i) {
             starts[i] = sum;
             sum += counts[i];
         }
-    }
+    });
     starts[count] = sums.back();
 }
 
 float reduceMaximum(int count, const float* values) {
-    float largest = values[0];
-#pragma omp parallel for schedule(static) reduction(max : largest) if (count >= serialCount)
-    for (int i = 0; i < count; ++i) largest = std::max(largest, values[i]);
-    return largest;
+    std::vector<float> largest(static_cast<std::size_t>(chunkCountFor(count)), values[0]);
+    forEachChunk(static_cast<int>(largest.size()), count, [&](std::size_t c, Chunk chunk) {
+        for (int i = chunk.begin; i < chunk.end; ++i) largest[c] = std::max(largest[c], values[i]);
+    });
+    return *std::max_element(largest.begin(), largest.end());
 }
 
 }  // namespace ballpit::cpu

@@ -9,6 +9,7 @@
 
 #include "common/device.h"
 #include "common/hd.h"
+#include "common/parallel.h"
 
 #ifdef __CUDACC__
 #include "common/cuda_check.h"
@@ -31,8 +32,8 @@ inline LaunchOrder& launchOrder() {
 
 /// Where turn k of `count` goes: a permutation of [0, count) for every order.
 inline int indexInOrder(LaunchOrder order, int k, int count) {
-    if (order == LaunchOrder::reversed) return count - 1 - k;
     if (order == LaunchOrder::forward) return k;
+    if (order == LaunchOrder::reversed) return count - 1 - k;
     // A stride without common divisor with count visits every index once.
     std::int64_t stride = static_cast<std::int64_t>(0.618 * count) | 1;
     while (std::gcd(stride, static_cast<std::int64_t>(count)) != 1) stride += 2;
@@ -40,6 +41,8 @@ inline int indexInOrder(LaunchOrder order, int k, int count) {
 }
 
 constexpr int threadsPerBlock = 256;
+/// Of the one block of launchPhases.
+constexpr int threadsOfPhases = 512;
 
 #ifdef __CUDACC__
 template <auto body, class... Args>
@@ -47,27 +50,47 @@ __global__ void threadPerIndex(int count, Args... args) {
     const int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
     if (i < count) body(i, args...);
 }
+
+template <auto body, class... Args>
+__global__ void __launch_bounds__(threadsOfPhases) phasesOfOneBlock(int phases, Args... args) {
+    for (int phase = 0; phase < phases; ++phase) {
+        body(phase, static_cast<int>(threadIdx.x), static_cast<int>(blockDim.x), args...);
+        __syncthreads();
+    }
+}
 #endif
 
 template <auto body, class... Args>
-void loopOverIndices(int count, Args... args) {
+void loopOverIndices(int count, const Args&... args) {
     const LaunchOrder order = launchOrder();
-    if (order == LaunchOrder::forward) {
-#pragma omp parallel for schedule(static) if (count >= serialCount)
-        for (int i = 0; i < count; ++i) body(i, args...);
-    } else {
-#pragma omp parallel for schedule(static) if (count >= serialCount)
-        for (int k = 0; k < count; ++k) body(indexInOrder(order, k, count), args...);
-    }
+    forEachTurn(count, count >= serialCount,
+                [&](int k) { body(indexInOrder(order, k, count), args...); });
 }
 
 template <auto body, class... Args>
-void launch(Device device, int count, Args... args) {
+void launch(Device device, int count, const Args&... args) {
     if (count <= 0) return;
     if (device == Device::cpu) return loopOverIndices<body>(count, args...);
 #ifdef __CUDACC__
     const int blocks = (count + threadsPerBlock - 1) / threadsPerBlock;
     threadPerIndex<body><<<blocks, threadsPerBlock, 0, cudaStream>>>(count, args...);
+    checkCuda(cudaGetLastError(), __PRETTY_FUNCTION__);
+#else
+    throw std::logic_error("a launch on a GPU in a build without CUDA");
+#endif
+}
+
+/// Phases one after the other: body(phase, thread, threads, arguments...) does a thread's share of
+/// each, and must not care how many threads there are. For little work a phase: on a GPU it is done
+/// by one block, whose threads can wait for each other, since a launch takes longer than a phase.
+template <auto body, class... Args>
+void launchPhases(Device device, int phases, const Args&... args) {
+    if (device == Device::cpu) {
+        for (int phase = 0; phase < phases; ++phase) body(phase, 0, 1, args...);
+        return;
+    }
+#ifdef __CUDACC__
+    phasesOfOneBlock<body><<<1, threadsOfPhases, 0, cudaStream>>>(phases, args...);
     checkCuda(cudaGetLastError(), __PRETTY_FUNCTION__);
 #else
     throw std::logic_error("a launch on a GPU in a build without CUDA");

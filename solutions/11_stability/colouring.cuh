@@ -27,6 +27,10 @@ constexpr int colourCount = 24;
 constexpr int colouringRounds = 48;
 constexpr std::uint32_t overflowColour = colourCount, noColour = colourCount + 1;
 
+/// On a GPU, one block does all colours of so many bodies and fewer, and all rounds of colouring: a
+/// launch for each takes longer than its few pairs.
+constexpr std::size_t oneBlockMost = 2048;
+
 /// What colours are gone at a body (bit c: colour c), and the last round in which a pair of it got
 /// its colour. A round past the last means: some pair of this body overflowed for want of rounds.
 struct BodyColours {
@@ -152,6 +156,13 @@ HD inline void takeColour(int thread, int threads, ColouringView view) {
     });
 }
 
+/// All rounds as phases: no pair has a colour; then bids and takes in turn.
+HD inline void phaseOfColouring(int phase, int thread, int threads, const ColouringView& view) {
+    if (phase == 0) return clearPairColours(thread, threads, view);
+    phase % 2 ? bidForColour(thread, threads, view) : takeColour(thread, threads, view);
+}
+constexpr int colouringPhases = 1 + 2 * colouringRounds;
+
 /// Writes each pair to its colour's list. The place in it is a matter of chance, but the pairs of a
 /// colour do not touch the same bodies, so their order cannot show. Flags what overflows.
 HD inline void listColours(int thread, int threads, ColouringView view) {
@@ -188,6 +199,19 @@ template <auto body, class... Args>
 HD void pairsOfOverflow(int, const ColouringView& view, const Args&... args) {
     const std::uint32_t count = view.overflowStarts[view.overflowFlags.count];
     for (std::uint32_t place = 0; place < count; ++place) body(view.overflow[place], args...);
+}
+
+/// A thread's share of the pairs of a colour; behind the last colour come those that overflow.
+template <auto body, class... Args>
+HD void shareOfColour(int colour, int thread, int threads, const ColouringView& view,
+                      const Args&... args) {
+    if (colour == colourCount) {
+        if (thread == 0) pairsOfOverflow<body, Args...>(0, view, args...);
+        return;
+    }
+    const auto c = static_cast<std::uint32_t>(colour);
+    for (int place = thread; place < static_cast<int>(view.counts[c]); place += threads)
+        pairOfColour<body, Args...>(place, c, view, args...);
 }
 
 /// Owns the colours of up to `pairCapacity` pairs of `bodyCount` bodies.
@@ -238,9 +262,12 @@ public:
     /// the same time, and the overflow last.
     template <auto body, class... Args>
     void forEachPair(Args... args) {
+        if (isOneBlockEnough())
+            return launchPhases<shareOfColour<body, Args...>>(device_, colourCount + 1, view_,
+                                                              args...);
         for (std::uint32_t colour = 0; colour < colourCount; ++colour)
-            launch<pairOfColour<body, Args...>>(device_, mostPairsOf(colour), colour, view_,
-                                                args...);
+            if (const int most = mostPairsOf(colour))
+                launch<pairOfColour<body, Args...>>(device_, most, colour, view_, args...);
         launch<pairsOfOverflow<body, Args...>>(device_, 1, view_, args...);
     }
 
@@ -260,7 +287,13 @@ private:
         return std::max<std::size_t>(1, bodyCount / 2);
     }
 
+    bool isOneBlockEnough() const {
+        return device_ == Device::cuda && bodies_.count() <= oneBlockMost;
+    }
+
     void colourInRounds(int threads) {
+        if (isOneBlockEnough())
+            return launchPhases<phaseOfColouring>(device_, colouringPhases, view_);
         launch<clearPairColours>(device_, threads, threads, view_);
         for (int round = 0; round < colouringRounds; ++round) {
             launch<bidForColour>(device_, threads, threads, view_);
