@@ -108,27 +108,35 @@ class Program(unittest.TestCase):
             self.assertEqual(list(Path(folder).iterdir()), [])
 
     def test_a_killed_run_goes_on_and_ends_with_the_rows_of_a_whole_one(self):
-        words = ["--quick", "--scene", "column", "--method", "warm", "--method", "small-steps"]
-        with tempfile.TemporaryDirectory() as folder:
-            child = subprocess.Popen([PROGRAM, *words, "--out", folder], stderr=subprocess.DEVNULL,
-                                     stdout=subprocess.DEVNULL)
-            part = Path(folder) / "chart.part"
-            deadline = time.time() + 120
-            while time.time() < deadline and child.poll() is None and \
-                    (not part.exists() or part.read_text().count("\n") < 3):
-                time.sleep(0.01)
-            child.kill()
-            child.wait()
-            self.assertEqual(child.returncode, -signal.SIGKILL, "it was done too early")
-            with open(part, "a") as file:
-                file.write("column,ballpit,warm,dt,8")  # torn
-            result = run(*words, "--out", folder)
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertRegex(result.stderr.splitlines()[0], r"^goes on: \d+ points are there")
-            self.assertEqual([f.name for f in Path(folder).iterdir()], ["chart_column.csv"])
-            rows = speed_chart.read(f"{folder}/chart_column.csv")[1]
-            self.assertEqual(len({(r["method"], r["steps_a_frame"], r["passes"]) for r in rows}), 14)
-            self.assertEqual(len(rows), 14)
+        for name, torn in (("few fields", lambda text: text + "column,ballpit,warm,dt,8"),
+                           ("the last field", lambda text: text[:-5])):
+            with self.subTest(torn=name), tempfile.TemporaryDirectory() as folder:
+                self.kill_and_go_on(Path(folder), torn)
+
+    def kill_and_go_on(self, folder, torn):
+        """`torn` makes of the file that a killed run left one whose last line has no end."""
+        words = ["--quick", "--scene", "column", "--method", "warm", "--method", "small-steps",
+                 "--out", folder]
+        child = subprocess.Popen([PROGRAM, *words], stderr=subprocess.DEVNULL,
+                                 stdout=subprocess.DEVNULL)
+        part = folder / "chart.part"
+        deadline = time.time() + 120
+        while time.time() < deadline and child.poll() is None and \
+                (not part.exists() or part.read_text().count("\n") < 4):
+            time.sleep(0.01)
+        child.kill()
+        child.wait()
+        self.assertEqual(child.returncode, -signal.SIGKILL, "it was done too early")
+        part.write_text(torn(part.read_text()))
+        result = run(*words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr.splitlines()[0], r"^goes on: \d+ points are there")
+        self.assertEqual([f.name for f in folder.iterdir()], ["chart_column.csv"])
+        rows = speed_chart.read(folder / "chart_column.csv")[1]
+        self.assertEqual(len({(r["method"], r["steps_a_frame"], r["passes"]) for r in rows}), 14)
+        self.assertEqual(len(rows), 14)
+        for row in rows:
+            self.assertRegex(row["command"], r" --passes \d+$")
 
     def test_the_docs_have_the_table_of_questions_as_the_program_prints_it(self):
         table = run("--questions").stdout

@@ -3,6 +3,7 @@
     python3 tests/test_command.py PATH/TO/gravity_fall PATH/TO/ballpit_bench
 """
 
+import csv
 import json
 import os
 import shutil
@@ -74,9 +75,12 @@ class Plans(Folder):
         self.assertEqual(given["plan_readings"], 0)
 
     def test_all_frames_last_as_long_as_the_scene_says(self):
-        found = self.summary("--scene", "bullet", "--frames", "3")
+        found = self.summary("--scene", "bullet", "--frames", "1", "--save", "end.csv")
         self.assertIn("4 steps a frame", found["plan"])
-        self.assertEqual(found["steps"], 3)
+        self.assertEqual(found["steps"], 1)
+        with open(os.path.join(self.folder, "end.csv")) as file:
+            bullet = next(csv.DictReader(file))
+        self.assertAlmostEqual(float(bullet["x"]), -4 + 1.5, delta=1e-5)  # three radii a frame
 
 
 class BadOptions(Folder):

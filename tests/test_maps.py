@@ -151,6 +151,13 @@ class Table(unittest.TestCase):
         for empty in ("error", "penetration rms / r", "same bits", "TIME: ms / simulated s"):
             self.assertEqual(broken[empty], "")
 
+    def test_the_floor_load_is_that_of_the_last_second(self):
+        # They bounce just before it, and then are in the air all the time.
+        _, rows = self.table("bounce", "--methods", "coloured")
+        self.assertEqual(rows["bounce", "coloured"]["simulated s"], "20")
+        self.assertAlmostEqual(float(rows["bounce", "coloured"]["floor load / weight"]), 0,
+                               delta=1e-3)
+
     def test_the_markdown_has_the_same_cells(self):
         _, rows = self.table("heavy_on_light", "--methods", "coloured")
         cells = [cell.strip() for cell in self.markdown.splitlines()[-1].strip("|").split("|")]

@@ -135,6 +135,8 @@ TEST_CASE("a gas is held against the event-driven simulator at the same time") {
     CHECK(trueEnergy(scene, 0.4) == Approx(2));
     CHECK(trueEnergy(scene, 0.6) == Approx(1.25));
     CoolingMeter meter(scene, scene.dt);
+    meter.add(scene.spheres, 0.4);
+    CHECK(meter.error() == Approx(0).margin(1e-9));
     meter.add(scene.spheres, 0.6);
     CHECK(meter.error() == Approx(2 / 1.25 - 1));
     meter.add(withVelocities(scene, {0.5f, 0, 0}, {1.5f, 0, 0}), 0.7);
@@ -183,6 +185,22 @@ TEST_CASE("pairs that pass unseen err by the whole angle") {
     CHECK(meter.error() == Approx(std::sqrt(squares / 4)).epsilon(1e-4));
 }
 
+TEST_CASE("a pair that turns as equal elastic balls do has no error of the angle") {
+    const Scene scene = makeMeetings(4, 1);
+    Spheres now = scene.spheres;
+    for (std::size_t k = 0; k < 8; k += 2) {
+        // The first hands on what it has along the line of centres at the contact.
+        const float b = now.positions[k].y - now.positions[k + 1].y;  // m, of a diameter of 1 m
+        const Vec3 line{std::sqrt(1 - b * b), -b, 0};
+        const Vec3 given = dot(now.velocities[k], line) * line;
+        now.velocities[k + 1] = given;
+        now.velocities[k] = now.velocities[k] - given;
+    }
+    AngleMeter meter(scene, scene.dt);
+    meter.add(now, 1);
+    CHECK(meter.error() < 1e-3);
+}
+
 TEST_CASE("meetings start apart, each in a lane of its own") {
     const Scene scene = makeMeetings(128, 1);
     CHECK(overlapOf(scene.spheres, scene.bounds).contacts == 0);
@@ -192,13 +210,13 @@ TEST_CASE("meetings start apart, each in a lane of its own") {
 }
 
 TEST_CASE("bullets that hand nothing on err by what they should have") {
-    // Two lanes: 2 kg m/s are handed on in the first, 4 in the second.
+    // Two lanes: 2 kg m/s are handed on in the first, 12 in the second.
     Scene scene = twoBalls({2, 0, 0});
-    scene.spheres.add({-1, 4, 0}, {4, 0, 0}, 0.5f, 1, 1);
-    scene.spheres.add({1, 4, 0}, {}, 0.5f, 1, 1);
+    scene.spheres.add({-1, 4, 0}, {4, 0, 0}, 0.5f, 3, 1);
+    scene.spheres.add({1, 4, 0}, {}, 0.5f, 3, 1);
     HandedOnMeter meter(scene, scene.dt);
     meter.add(scene.spheres, 1);
-    CHECK(meter.error() == Approx(std::sqrt((4 + 16) / 2.0) / 3));
+    CHECK(meter.error() == Approx(std::sqrt((4 + 144) / 2.0) / 7));
     Spheres now = scene.spheres;
     now.velocities = {{}, {2, 0, 0}, {}, {4, 0, 0}};
     meter.add(now, 1);

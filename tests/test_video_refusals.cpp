@@ -35,7 +35,7 @@ TEST_CASE("places that cannot be written are refused, and nothing is left there"
     std::ofstream(folder / "file.txt") << "not a folder";
     CHECK(mentions(refusal(folder / "file.txt/movie.mp4", 320, 180), folder / "file.txt"));
     fs::create_directory(folder / "folder.mp4");
-    CHECK(mentions(refusal(folder / "folder.mp4", 320, 180), "folder"));
+    CHECK(mentions(refusal(folder / "folder.mp4", 320, 180), "this is a folder"));
     fs::create_directory(folder / "taken.part.mp4");  // the temporary name cannot be opened
     CHECK(mentions(refusal(folder / "taken.mp4", 320, 180), folder / "taken.mp4"));
     CHECK(folder.names() == Names{"file.txt", "folder.mp4", "taken.part.mp4"});
