@@ -7,4 +7,5 @@ git ls-files 'common/*.cpp' 'common/*.cu' 'solutions/*.cpp' 'bench/*.cpp' 'bench
     'tests/checks/*.cpp' 'tests/test_truth_*.cpp' 'truth/*.cpp' \
     'stability/*.cpp' 'stability/*.cu' 'tests/test_stability_*.cpp' 'chart/*.cpp' 'chart/*.cu' |
     grep -v without_ |
-    xargs -P 2 -n 2 clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option
+    xargs -P 2 -n 2 clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option \
+        --extra-arg=-Wreserved-identifier
