@@ -80,7 +80,7 @@ std::vector<double> coolingAgainstHaff(Gas gas, double haffTimes) {
 }  // namespace
 
 TEST_CASE("coloured holds: an elastic gas obeys kinetic theory to a volume share of 0.4",
-          "[stability]") {
+          "[stability][long]") {
     // Volume share; radii a step (rms), which must be small against the way between collisions.
     // Mean free time over Enskog's: +0.7 %, 0.0 %, +1.0 %.
     const auto [share, travel] =
@@ -121,7 +121,7 @@ TEST_CASE("warm fails where a ball is hit and thrown at another in the same step
 }
 
 TEST_CASE("warm fails in a thin elastic gas: it loses energy, less with smaller steps",
-          "[stability]") {
+          "[stability][long]") {
     const auto leftAfter = [](float travel) {
         const Gas gas{.volumeShare = 0.05f, .travel = travel};
         const Scene scene = makeGasOf(gas);
@@ -137,7 +137,7 @@ TEST_CASE("warm fails in a thin elastic gas: it loses energy, less with smaller 
 }
 
 TEST_CASE("walls show in a gas of 343 balls: their collisions are not those of an endless one",
-          "[stability]") {
+          "[stability][long]") {
     const GasFigures gas = figuresOf({.volumeShare = 0.2f, .travel = 0.05f});
     // Centres stay a radius from the walls: in so much less room they meet more often.
     CHECK(gas.meanFreeTimeError == Approx(-0.122).margin(0.03));

@@ -69,7 +69,7 @@ std::vector<std::string> questionScenes() {
 }  // namespace
 
 TEST_CASE("every charted scene's plan meets its tolerance, and nothing that does is much cheaper",
-          "[plan]") {
+          "[plan][long]") {
     const std::string scene = GENERATE(from_range(questionScenes()));
     const Question& question = stability::question(scene);
     const test::Verdict plan = runPlans(question);
@@ -132,7 +132,7 @@ Spheres stateUnder(const Scene& scene, const Plan& plan, int frames) {
 }  // namespace
 
 TEST_CASE("a threshold that is three times off makes a charted scene miss, or much dearer",
-          "[plan]") {
+          "[plan][long]") {
     const Mutant mutant = GENERATE(from_range(mutants()));
     PlanThresholds wrong;
     wrong.*mutant.threshold *= mutant.factor;
@@ -201,7 +201,8 @@ TEST_CASE("balls that overlap from the start are not thrown apart", "[plan]") {
     CHECK(test::planOf(test::pressedLattice(0.02f)).response == ResponseMethod::warm);
 }
 
-TEST_CASE("a crowd without gravity comes apart as far as another choice could bring it", "[plan]") {
+TEST_CASE("a crowd without gravity comes apart as far as another choice could bring it",
+          "[plan][long]") {
     const auto deepest = [](const Scene& scene, const PlanThresholds& thresholds) {
         const Spheres end = stateUnder(scene, test::planOf(scene, usualTolerance, thresholds), 20);
         return measure(end, scene.bounds, scene.gravity, scene.dt).largestPenetration;

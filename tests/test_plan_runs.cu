@@ -168,7 +168,7 @@ TEST_CASE("a scene on a threshold does not go to and fro", "[plan]") {
 TEST_CASE(
     "gravity_fall under its plan overlaps no more than under the original loop, and gains no "
     "energy",
-    "[plan]") {
+    "[plan][long]") {
     const int count = GENERATE(500, 2000, 5000);
     CAPTURE(count);
     const Scene scene = makeScene("gravity_fall", count, 1);
@@ -202,7 +202,7 @@ double shareOfPlanning(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("planning takes less than 1 % of a run", "[plan]") {
+TEST_CASE("planning takes less than 1 % of a run", "[plan][long]") {
     const int count = GENERATE(500, 5000);
     CAPTURE(count);
     const Scene scene = makeScene("gravity_fall", count, 1);

@@ -103,7 +103,8 @@ TEST_CASE("an oblique collision leaves the tangential velocity and the momentum"
     CHECK(length(Vec3d{after.x - before.x, after.y - before.y, after.z - before.z}) < 1e-6);
 }
 
-TEST_CASE("4000 elastic bounces between two balls and two walls gain no energy", "[stability]") {
+TEST_CASE("4000 elastic bounces between two balls and two walls gain no energy",
+          "[stability][long]") {
     const ResponseMethod method = GENERATE(from_range(test::exactMethods()));
     CAPTURE(method);
     Scene scene = test::emptyWorld();
@@ -131,7 +132,7 @@ TEST_CASE("4000 elastic bounces between two balls and two walls gain no energy",
 }
 
 TEST_CASE("4000 elastic bounces keep the energy where none shares a step with another",
-          "[stability]") {
+          "[stability][long]") {
     const ResponseMethod method = GENERATE(from_range(test::exactMethods()));
     CAPTURE(method);
     Scene scene = test::emptyWorld();

@@ -34,7 +34,7 @@ std::vector<double> cradle(int count, ResponseMethod method, int iterations) {
 
 }  // namespace
 
-TEST_CASE("coloured holds: a dense elastic gas keeps its energy", "[stability]") {
+TEST_CASE("coloured holds: a dense elastic gas keeps its energy", "[stability][long]") {
     const double phi = GENERATE(0.05, 0.2, 0.4);
     CAPTURE(phi);
     const test::GasEnergy energy = energyOf(ResponseMethod::coloured, phi, 1.0f);
@@ -42,7 +42,7 @@ TEST_CASE("coloured holds: a dense elastic gas keeps its energy", "[stability]")
     CHECK(energy.largest < 1.0001);
 }
 
-TEST_CASE("jacobi holds in a thin elastic gas and in a dull dense one", "[stability]") {
+TEST_CASE("jacobi holds in a thin elastic gas and in a dull dense one", "[stability][long]") {
     const test::GasEnergy thin = energyOf(ResponseMethod::jacobi, 0.05, 1.0f);
     CHECK(std::abs(thin.final - 1.0) < 0.1);
     CHECK(thin.largest < 1.1);
@@ -64,13 +64,13 @@ TEST_CASE("jacobi with a smaller share of each impulse does not explode, but bou
 }
 
 TEST_CASE("mass-split holds in that it never gains, and fails in that it loses most",
-          "[stability]") {
+          "[stability][long]") {
     const test::GasEnergy energy = energyOf(ResponseMethod::massSplit, 0.4, 1.0f);
     CHECK(energy.largest <= 1.00001);
     CHECK(energy.final < 0.5);
 }
 
-TEST_CASE("small-steps holds: a dense elastic gas keeps its energy", "[stability]") {
+TEST_CASE("small-steps holds: a dense elastic gas keeps its energy", "[stability][long]") {
     const double phi = GENERATE(0.1, 0.4);
     CAPTURE(phi);
     const test::GasEnergy energy = energyOf(ResponseMethod::smallSteps, phi, 1.0f, 30.0);
@@ -84,7 +84,7 @@ TEST_CASE("warm fails in a dense elastic gas: it loses energy", "[stability]") {
     CHECK(energy.final < 0.8);
 }
 
-TEST_CASE("penalty holds in a dense elastic gas", "[stability]") {
+TEST_CASE("penalty holds in a dense elastic gas", "[stability][long]") {
     // Some of the energy is in the springs at any time.
     const test::GasEnergy energy = energyOf(ResponseMethod::penalty, 0.4, 1.0f);
     CHECK(std::abs(energy.final - 1.0) < 0.1);

@@ -33,7 +33,7 @@ Overlap pileUnder(ResponseMethod method) {
 }  // namespace
 
 TEST_CASE("small-steps holds a deep pile: overlaps of 0.3 % of a radius, 3 % at most",
-          "[stability]") {
+          "[stability][long]") {
     const Overlap overlap = pileUnder(ResponseMethod::smallSteps);
     CHECK(overlap.mean < 0.003);
     CHECK(overlap.largest < 0.03);
@@ -41,7 +41,7 @@ TEST_CASE("small-steps holds a deep pile: overlaps of 0.3 % of a radius, 3 % at 
 
 // What is left of an overlap is speed in the next substep, and is taken away there. So a heap that
 // has come to rest shows speeds of about g dt that lead nowhere.
-TEST_CASE("under small-steps a heap at rest quivers in its place", "[stability]") {
+TEST_CASE("under small-steps a heap at rest quivers in its place", "[stability][long]") {
     const Scene scene = stability::makeDeepPile(1500, 1);
     PhysicsSimulator simulator(test::settingsFor(scene, Device::cpu, ResponseMethod::smallSteps));
     simulator.bodies().upload(scene.spheres);
@@ -59,16 +59,17 @@ TEST_CASE("under small-steps a heap at rest quivers in its place", "[stability]"
     CHECK(moved < 0.5 * speed);
 }
 
-TEST_CASE("penalty and warm hold a deep pile softly: overlaps of some per cent", "[stability]") {
+TEST_CASE("penalty and warm hold a deep pile softly: overlaps of some per cent",
+          "[stability][long]") {
     CHECK(pileUnder(ResponseMethod::penalty).mean < 0.03);
     CHECK(pileUnder(ResponseMethod::warm).mean < 0.05);
 }
 
-TEST_CASE("mass-split fails in a deep pile: it sinks into itself", "[stability]") {
+TEST_CASE("mass-split fails in a deep pile: it sinks into itself", "[stability][long]") {
     CHECK(pileUnder(ResponseMethod::massSplit).mean > 0.2);
 }
 
-TEST_CASE("coloured and jacobi fail in a deep pile", "[stability]") {
+TEST_CASE("coloured and jacobi fail in a deep pile", "[stability][long]") {
     const ResponseMethod method = GENERATE(ResponseMethod::coloured, ResponseMethod::jacobi);
     CAPTURE(method);
     const Scene scene = test::pileOf(1500, 0.3f, 1);
@@ -93,7 +94,7 @@ TEST_CASE("coloured holds a column of three", "[stability]") {
     CHECK(columnUnder(ResponseMethod::coloured, 3).largest < 0.2);
 }
 
-TEST_CASE("a pile under warm comes to rest, under coloured it boils", "[stability]") {
+TEST_CASE("a pile under warm comes to rest, under coloured it boils", "[stability][long]") {
     const Scene scene = test::pileOf(500, 0.0f, 2);
     const auto speed = [&](ResponseMethod method) {
         const Spheres end =

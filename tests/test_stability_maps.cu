@@ -121,7 +121,8 @@ TEST_CASE("warm fixes all bounces at once: it holds with two contacts and fails 
     CHECK(hub(warm, 6, 0.5f) == Verdict::ok);
 }
 
-TEST_CASE("an elastic gas: who holds where it is thin, and who where it is dense", "[stability]") {
+TEST_CASE("an elastic gas: who holds where it is thin, and who where it is dense",
+          "[stability][long]") {
     for (const ResponseMethod method : {jacobi, atomic}) {
         CHECK(gas(method, 0.05f, 0.02f) == Verdict::ok);
         CHECK(gas(method, 0.4f, 0.1f) == Verdict::energy);

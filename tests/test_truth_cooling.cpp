@@ -48,7 +48,7 @@ std::vector<double> coolingAgainstHaff(double e) {
 
 }  // namespace
 
-TEST_CASE("truth: an inelastic gas cools by Haff's law, to four Haff times") {
+TEST_CASE("truth: an inelastic gas cools by Haff's law, to four Haff times", "[long]") {
     struct Case {
         double e, tolerance;
     };

@@ -49,7 +49,8 @@ double collisionsUntilUnlike(double density, double difference) {
 
 }  // namespace
 
-TEST_CASE("truth: the mean free time of 1372 balls at half density is the published 0.13031") {
+TEST_CASE("truth: the mean free time of 1372 balls at half density is the published 0.13031",
+          "[long]") {
     const Gas gas = latticeGas({.cellsPerSide = 7, .density = 0.5});
     REQUIRE(gas.balls.size() == 1372);
     EventDriven simulator = equilibrated(gas, 50000);
@@ -60,7 +61,7 @@ TEST_CASE("truth: the mean free time of 1372 balls at half density is the publis
     CHECK(length(momentum(simulator.balls())) < 1e-11);
 }
 
-TEST_CASE("truth: pressure and collision rate are Carnahan and Starling's and Enskog's") {
+TEST_CASE("truth: pressure and collision rate are Carnahan and Starling's and Enskog's", "[long]") {
     for (const double density : {0.2, 0.5}) {
         CAPTURE(density);
         const Gas gas = latticeGas({.cellsPerSide = 5, .density = density});
@@ -101,7 +102,8 @@ TEST_CASE("truth: the forms of kinetic theory fit together") {
     CHECK(mean == withinShare(meanSpeed(2, 3), 1e-6));
 }
 
-TEST_CASE("truth: balls that all start equally fast end with Maxwell's and Boltzmann's speeds") {
+TEST_CASE("truth: balls that all start equally fast end with Maxwell's and Boltzmann's speeds",
+          "[long]") {
     Gas gas = latticeGas({.cellsPerSide = 7, .density = 0.3});
     for (Ball& ball : gas.balls)  // every component 1 or -1: T = 1
         for (int axis = 0; axis < 3; ++axis) ball.velocity[axis] = ball.velocity[axis] < 0 ? -1 : 1;
