@@ -53,10 +53,9 @@ __global__ void threadPerIndex(int count, Args... args) {
 
 template <auto body, class... Args>
 __global__ void __launch_bounds__(threadsOfPhases) phasesOfOneBlock(int phases, Args... args) {
-    for (int phase = 0; phase < phases; ++phase) {
-        body(phase, static_cast<int>(threadIdx.x), static_cast<int>(blockDim.x), args...);
-        __syncthreads();
-    }
+    const int thread = static_cast<int>(threadIdx.x), threads = static_cast<int>(blockDim.x);
+    for (int phase = 0; phase < phases; ++phase)
+        if (!__syncthreads_or(body(phase, thread, threads, args...))) return;
 }
 #endif
 
@@ -80,13 +79,14 @@ void launch(Device device, int count, const Args&... args) {
 #endif
 }
 
-/// Phases one after the other: body(phase, thread, threads, arguments...) does a thread's share of
-/// each, and must not care how many threads there are. For little work a phase: on a GPU it is done
-/// by one block, whose threads can wait for each other, since a launch takes longer than a phase.
+/// Up to `phases` phases, one after the other: body(phase, thread, threads, arguments...) does a
+/// thread's share of each and says whether it wants another; the last is the one after which no
+/// thread does. How many threads there are must not show. For little work a phase: on a GPU one
+/// block does it, whose threads can wait for each other, since a launch takes longer than a phase.
 template <auto body, class... Args>
 void launchPhases(Device device, int phases, const Args&... args) {
     if (device == Device::cpu) {
-        for (int phase = 0; phase < phases; ++phase) body(phase, 0, 1, args...);
+        for (int phase = 0; phase < phases && body(phase, 0, 1, args...);) ++phase;
         return;
     }
 #ifdef __CUDACC__

@@ -9,6 +9,19 @@
 
 namespace ballpit::test {
 
+/// Row phase + 1 from row `phase`: each number is its right neighbour's and 1. Only whoever has the
+/// last column knows that there is more to do, until row `last` is there.
+HD inline bool nextRow(int phase, int thread, int threads, int columns, int last,
+                       View<std::uint32_t> rows) {
+    bool more = false;
+    for (int k = thread; k < columns; k += threads) {
+        const int right = (k + 1) % columns;
+        rows[(phase + 1) * columns + k] = rows[phase * columns + right] + 1;
+        more = more || (k == columns - 1 && phase + 1 < last);
+    }
+    return more;
+}
+
 /// A kernel that counts its visits.
 HD inline void countVisit(int i, View<std::uint32_t> visits) { fetchAdd(visits[i], 1); }
 
@@ -185,6 +198,25 @@ TEST_CASE("launch visits each index exactly once, in every order and on any numb
     launch<test::noteIndex>(device, count, count, outOfRange.view());
     CHECK(visits.download() == Numbers(static_cast<std::size_t>(count), 1));
     CHECK(outOfRange.download()[0] == 0);
+}
+
+TEST_CASE(
+    "phases follow each other, each on all of the one before, until no thread wants another") {
+    const Device device = GENERATE(from_range(test::devices()));
+    const int columns = GENERATE(1, 2, 511, 512, 513, 2000);
+    constexpr int most = 20;
+    const int last = GENERATE(1, 7, 20, 25);
+    CAPTURE(columns, last);
+    Numbers start(static_cast<std::size_t>(columns * (most + 1)), 0), expected = start;
+    for (int k = 0; k < columns; ++k)
+        start[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(7 * k);
+    for (int phase = 0; phase <= std::min(last, most); ++phase)
+        for (int k = 0; k < columns; ++k)
+            expected[static_cast<std::size_t>(phase * columns + k)] =
+                static_cast<std::uint32_t>(7 * ((k + phase) % columns) + phase);
+    auto rows = onDevice(device, start);
+    launchPhases<test::nextRow>(device, most, columns, last, rows.view());
+    CHECK((rows.download() == expected));
 }
 
 TEST_CASE("the launch orders differ, so that a race would show") {

@@ -156,10 +156,26 @@ HD inline void takeColour(int thread, int threads, ColouringView view) {
     });
 }
 
-/// All rounds as phases: no pair has a colour; then bids and takes in turn.
-HD inline void phaseOfColouring(int phase, int thread, int threads, const ColouringView& view) {
-    if (phase == 0) return clearPairColours(thread, threads, view);
-    phase % 2 ? bidForColour(thread, threads, view) : takeColour(thread, threads, view);
+/// Has a pair of a thread's share no colour yet?
+HD inline bool lacksColours(int thread, int threads, const ColouringView& view) {
+    bool lacks = false;
+    visitShare(thread, threads, view.pairs,
+               [&](std::uint32_t k) { lacks = lacks || view.colours[k] == noColour; });
+    return lacks;
+}
+
+/// All rounds as phases (launchPhases): no pair has a colour; then bids and takes in turn, until
+/// nobody bids.
+HD inline bool phaseOfColouring(int phase, int thread, int threads, const ColouringView& view) {
+    if (phase == 0) {
+        clearPairColours(thread, threads, view);
+    } else if (phase % 2) {
+        if (!lacksColours(thread, threads, view)) return false;
+        bidForColour(thread, threads, view);
+    } else {
+        takeColour(thread, threads, view);
+    }
+    return true;
 }
 constexpr int colouringPhases = 1 + 2 * colouringRounds;
 
@@ -201,17 +217,19 @@ HD void pairsOfOverflow(int, const ColouringView& view, const Args&... args) {
     for (std::uint32_t place = 0; place < count; ++place) body(view.overflow[place], args...);
 }
 
-/// A thread's share of the pairs of a colour; behind the last colour come those that overflow.
+/// A thread's share of the pairs of a colour (launchPhases). The first colour without pairs is the
+/// last, since each pair took the first that was free; then come those that overflow.
 template <auto body, class... Args>
-HD void shareOfColour(int colour, int thread, int threads, const ColouringView& view,
+HD bool shareOfColour(int colour, int thread, int threads, const ColouringView& view,
                       const Args&... args) {
-    if (colour == colourCount) {
-        if (thread == 0) pairsOfOverflow<body, Args...>(0, view, args...);
-        return;
-    }
     const auto c = static_cast<std::uint32_t>(colour);
+    if (c == colourCount || view.counts[c] == 0) {
+        if (thread == 0) pairsOfOverflow<body, Args...>(0, view, args...);
+        return false;
+    }
     for (int place = thread; place < static_cast<int>(view.counts[c]); place += threads)
         pairOfColour<body, Args...>(place, c, view, args...);
+    return true;
 }
 
 /// Owns the colours of up to `pairCapacity` pairs of `bodyCount` bodies.
