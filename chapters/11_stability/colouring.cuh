@@ -27,6 +27,10 @@ constexpr int colourCount = 24;
 constexpr int colouringRounds = 48;
 constexpr std::uint32_t overflowColour = colourCount, noColour = colourCount + 1;
 
+/// On a GPU, one block does all colours of so many bodies and fewer, and all rounds of colouring: a
+/// launch for each takes longer than its few pairs.
+constexpr std::size_t oneBlockMost = 2048;
+
 /// What colours are gone at a body (bit c: colour c), and the last round in which a pair of it got
 /// its colour. A round past the last means: some pair of this body overflowed for want of rounds.
 struct BodyColours {
@@ -140,6 +144,29 @@ HD inline void takeColour(int thread, int threads, ColouringView view) {
     });
 }
 
+/// Has a pair of a thread's share no colour yet?
+HD inline bool lacksColours(int thread, int threads, const ColouringView& view) {
+    bool lacks = false;
+    visitShare(thread, threads, view.pairs,
+               [&](std::uint32_t k) { lacks = lacks || view.colours[k] == noColour; });
+    return lacks;
+}
+
+/// All rounds as phases (launchPhases): no pair has a colour; then bids and takes in turn, until
+/// nobody bids.
+HD inline bool phaseOfColouring(int phase, int thread, int threads, const ColouringView& view) {
+    if (phase == 0) {
+        clearPairColours(thread, threads, view);
+    } else if (phase % 2) {
+        if (!lacksColours(thread, threads, view)) return false;
+        bidForColour(thread, threads, view);
+    } else {
+        takeColour(thread, threads, view);
+    }
+    return true;
+}
+constexpr int colouringPhases = 1 + 2 * colouringRounds;
+
 /// Writes each pair to its colour's list. The place in it is a matter of chance, but the pairs of a
 /// colour do not touch the same bodies, so their order cannot show. Flags what overflows.
 HD inline void listColours(int thread, int threads, ColouringView view) {
@@ -176,6 +203,21 @@ template <auto body, class... Args>
 HD void pairsOfOverflow(int, const ColouringView& view, const Args&... args) {
     const std::uint32_t count = view.overflowStarts[view.overflowFlags.count];
     for (std::uint32_t place = 0; place < count; ++place) body(view.overflow[place], args...);
+}
+
+/// A thread's share of the pairs of a colour (launchPhases). The first colour without pairs is the
+/// last, since each pair took the first that was free; then come those that overflow.
+template <auto body, class... Args>
+HD bool shareOfColour(int colour, int thread, int threads, const ColouringView& view,
+                      const Args&... args) {
+    const auto c = static_cast<std::uint32_t>(colour);
+    if (c == colourCount || view.counts[c] == 0) {
+        if (thread == 0) pairsOfOverflow<body, Args...>(0, view, args...);
+        return false;
+    }
+    for (int place = thread; place < static_cast<int>(view.counts[c]); place += threads)
+        pairOfColour<body, Args...>(place, c, view, args...);
+    return true;
 }
 
 /// Owns the colours of up to `pairCapacity` pairs of `bodyCount` bodies.
@@ -226,9 +268,12 @@ public:
     /// the same time, and the overflow last.
     template <auto body, class... Args>
     void forEachPair(Args... args) {
+        if (isOneBlockEnough())
+            return launchPhases<shareOfColour<body, Args...>>(device_, colourCount + 1, view_,
+                                                              args...);
         for (std::uint32_t colour = 0; colour < colourCount; ++colour)
-            launch<pairOfColour<body, Args...>>(device_, mostPairsOf(colour), colour, view_,
-                                                args...);
+            if (const int most = mostPairsOf(colour))
+                launch<pairOfColour<body, Args...>>(device_, most, colour, view_, args...);
         launch<pairsOfOverflow<body, Args...>>(device_, 1, view_, args...);
     }
 
@@ -248,7 +293,13 @@ private:
         return std::max<std::size_t>(1, bodyCount / 2);
     }
 
+    bool isOneBlockEnough() const {
+        return device_ == Device::cuda && bodies_.count() <= oneBlockMost;
+    }
+
     void colourInRounds(int threads) {
+        if (isOneBlockEnough())
+            return launchPhases<phaseOfColouring>(device_, colouringPhases, view_);
         launch<clearPairColours>(device_, threads, threads, view_);
         for (int round = 0; round < colouringRounds; ++round) {
             launch<bidForColour>(device_, threads, threads, view_);
