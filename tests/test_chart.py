@@ -264,9 +264,8 @@ class Page(InFolder):
 class Gains(InFolder):
     """The plan and the original loop, put into the tiny chart."""
 
-    def row(self, *points):
-        """The table's row, without scene and tolerance, with these points ("method, label, error,
-        verdict, ms") in the chart."""
+    def put(self, *points):
+        """Adds these points ("method, label, error, verdict, ms") to the chart."""
         lines = []
         for point in points:
             method, label, error, verdict, ms = point.split(", ")
@@ -274,6 +273,10 @@ class Gains(InFolder):
             lines.append(f"column,ballpit,{method},dt,2,0.008,2,iterations,{label},{error},0.1,{verdict},"
                          f"{ms},{ms},{ms},{factor},100,5,yes,yes,command\n")
         self.file.write_text(TINY + "".join(lines))
+
+    def row(self, *points):
+        """The table's row of a chart with these points, without scene and tolerance."""
+        self.put(*points)
         return gains.gain(self.file)[2:]
 
     def test_the_loop_is_asked_for_its_error_in_the_plans_time_and_its_time_at_the_plans_error(self):
@@ -296,8 +299,9 @@ class Gains(InFolder):
     def test_a_plan_that_failed_is_told_and_a_chart_without_plan_or_loop_has_no_row(self):
         row = self.row("mass-split, original loop, 1.5, ok, 3", "plan, plan, 0.03, lost, nan")
         self.assertEqual(row[2:], ["lost"] + [""] * 6)
-        self.file.write_text(TINY)
-        self.assertIsNone(gains.gain(self.file))
+        for alone in ([], ["plan, plan, 0.03, ok, 8"], ["mass-split, original loop, 1.5, ok, 3"]):
+            self.put(*alone)
+            self.assertIsNone(gains.gain(self.file), alone)
 
     def test_the_docs_have_the_tables_of_their_charts(self):
         for folder in (ROOT / "docs/results", ROOT / "docs/results/h100"):
